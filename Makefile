@@ -1,0 +1,71 @@
+# Everything that has to be built or drawn, each with one command. CMakeLists.txt builds; this file only names the steps.
+
+BUILD  ?= build
+OUT    ?= reports/out
+JOBS   ?= $(shell nproc 2>/dev/null || sysctl -n hw.ncpu 2>/dev/null || echo 2)
+REPORT  = $(OUT)/index.html
+# SETUP=off installs no system package, PYTHON draws the report, CXX builds: all three reach the scripts by the environment
+
+acstudy = "$(BUILD)/acstudy"
+setup   = @scripts/setup.sh
+
+# One build folder for all targets: the tests are added to it, and stay, once they have been asked for.
+configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release
+# its own number of jobs, not that of the make which calls it
+compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
+
+.PHONY: help studies test check build format format-check clean compiled compiled-tests drawable
+
+help:  ## lists the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
+	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  SETUP=off  PYTHON=...  CXX=..."
+
+# On a fresh machine the packages that draw are installed while the C++ compiles: half a minute less.
+# A verdict that departs (1) or a run that failed (3) is to be seen in the report too.
+studies:  ## runs every study and draws every figure, from nothing
+	$(setup) build
+	@$(MAKE) --no-print-directory -j 2 compiled drawable
+	@status=0; $(acstudy) run studies/*.toml --out "$(OUT)" --jobs $(JOBS) || status=$$?; \
+	case $$status in 0|1|3) ;; *) exit $$status ;; esac; \
+	python=$$(scripts/find-python.sh) && echo "acstudy: drawing with $$python" && "$$python" reports/report.py "$(OUT)" || exit; \
+	echo "acstudy: the report is $(REPORT)"; exit $$status
+
+test:  ## builds and runs every test
+	$(setup) build test
+	@$(MAKE) --no-print-directory -j 2 compiled-tests drawable
+	@PYTHON=$$(scripts/find-python.sh) && export PYTHON && ctest --test-dir "$(BUILD)" --output-on-failure -j $(JOBS)
+
+check: build  ## the gates: exit 1 if any verdict departs from what its study expects
+	@$(acstudy) run studies/*.toml --out "$(OUT)" --jobs $(JOBS) || [ $$? -eq 1 ]
+	@$(acstudy) check "$(OUT)"/*.json
+
+build:  ## builds acstudy
+	$(setup) build
+	@$(MAKE) --no-print-directory compiled
+
+format:  ## formats the C++ sources
+	$(setup) lint
+	@$(sources) -exec clang-format -i {} +
+
+format-check:  ## names the C++ sources that make format would change
+	$(setup) lint
+	@$(sources) -exec clang-format --dry-run --Werror {} +
+
+clean:  ## removes what was built; results in OUT stay
+	@[ ! -e "$(BUILD)" ] || [ -e "$(BUILD)/CMakeCache.txt" ] || { echo "$(BUILD) is no build folder; not removed" >&2; exit 2; }
+	rm -rf "$(BUILD)"
+
+sources = find solver mms studies reports tests \( -name '*.hpp' -o -name '*.cpp' \)
+
+# steps of the targets above
+
+compiled:
+	@$(configure) $(if $(wildcard $(BUILD)/CMakeCache.txt),,-DACSTUDY_TESTS=OFF)
+	@$(compile) --target acstudy
+
+compiled-tests:
+	@$(configure) -DACSTUDY_TESTS=ON
+	@$(compile)
+
+drawable:
+	$(setup) report

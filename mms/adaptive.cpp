@@ -1,0 +1,135 @@
+#include "mms/adaptive.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+
+#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+namespace acstudy {
+
+namespace {
+
+using Function = std::function<double(double)>;
+
+constexpr double tolerance = 1e-14;
+
+/// int_lower^upper g(z) (z - lower)^exponent dz by GSL.
+double integrate_gsl(const Function& g, double lower, double upper, double exponent) {
+  constexpr std::size_t limit = 200;
+  const std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integration_workspace_free)> workspace(
+      gsl_integration_workspace_alloc(limit), gsl_integration_workspace_free);
+  const std::unique_ptr<gsl_integration_qaws_table, decltype(&gsl_integration_qaws_table_free)> table(
+      gsl_integration_qaws_table_alloc(exponent, 0.0, 0, 0), gsl_integration_qaws_table_free);
+  gsl_function function{[](double z, void* f) { return (*static_cast<const Function*>(f))(z); },
+                        const_cast<Function*>(&g)};
+  double result = 0.0, error = 0.0;
+  gsl_error_handler_t* const old = gsl_set_error_handler_off();
+  const int status = gsl_integration_qaws(&function, lower, upper, table.get(), 1e-15, tolerance, limit, workspace.get(),
+                                          &result, &error);
+  gsl_set_error_handler(old);
+  // GSL_EROUND: the tolerance is below what double precision allows, the result as good as it gets.
+  if (status != GSL_SUCCESS && status != GSL_EROUND && !(error <= 1e-12 * std::abs(result))) {
+    throw std::runtime_error(fmt::format("GSL quadrature of the source failed: {} (estimated error {:.3g} of {:.3g})", gsl_strerror(status), error, result));
+  }
+  return result;
+}
+
+/// The same by Boost.Math.
+double integrate_boost(const Function& g, double lower, double upper, double exponent) {
+  thread_local boost::math::quadrature::tanh_sinh<double> rule(12);
+  double error = 0.0, scale = 0.0;
+  // The second argument is the distance to the nearer end, exact where z - lower would cancel.
+  const auto integrand = [&](double z, double to_end) {
+    const double from_lower = z - lower < upper - z ? std::abs(to_end) : z - lower;
+    return g(lower + from_lower) * std::pow(from_lower, exponent);
+  };
+  const double result = rule.integrate(integrand, lower, upper, tolerance, &error, &scale);
+  if (!(error <= 1e-11 * scale + 1e-15)) {
+    throw std::runtime_error(fmt::format("Boost quadrature of the source failed: error estimate {:.3g}", error));
+  }
+  return result;
+}
+
+struct Point {
+  double value = 0.0, slope = 0.0;
+};
+
+/// (g(right) - g(left)) / (right - left) without cancellation: for a small gap the average of g' by a three-point rule,
+/// whose own error there is below round-off.
+template <class Field>
+double divided_difference(const Field& g, double left, double right) {
+  const double gap = right - left;
+  if (gap > 1e-2) return (g(right).value - g(left).value) / gap;
+  const double middle = 0.5 * (left + right), offset = 0.5 * std::sqrt(0.6) * gap;
+  return (5.0 * g(middle - offset).slope + 8.0 * g(middle).slope + 5.0 * g(middle + offset).slope) / 18.0;
+}
+
+}  // namespace
+
+double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model, SourceRule rule, double x, double t,
+                                 std::int64_t& points) {
+  const auto b = [&](double y) {
+    Point p;
+    if (!scene.standing()) scene.b({&y, 1}, {&p.value, 1}, {&p.slope, 1});
+    return p;
+  };
+  const auto c_hat = [&](double y) {
+    Point p;
+    scene.c({&y, 1}, {&p.value, 1}, {&p.slope, 1});
+    const Point particle = b(y);
+    return Point{p.value - particle.value, p.slope - particle.slope};
+  };
+  const auto u = [&](double y) {
+    Point p;
+    scene.u({&y, 1}, t, {&p.value, 1}, {&p.slope, 1});
+    return p;
+  };
+  const Point u_x = u(x);
+  const bool nonlocal_divergence = model.nonlocal_divergence && !scene.standing();
+  const double delta = model.delta;
+
+  // Every term has the form int_0^delta G(s) s eta^delta(s) ds with a smooth G.
+  Function G;
+  if (model.model == 1) {
+    const double s = c_hat(x).value > 0.0 ? 1.0 : -1.0;
+    const auto flux = [&](double y) {
+      const Point a = c_hat(y), v = u(y);
+      return Point{a.value * v.value, a.slope * v.value + a.value * v.slope};
+    };
+    G = [=](double r) {
+      const double left = std::min(x, x - s * r), right = std::max(x, x - s * r);
+      const double divergence = nonlocal_divergence ? divided_difference(b, left, right) * u_x.value : 0.0;
+      return divided_difference(flux, left, right) + divergence;
+    };
+  } else {
+    const auto pair_flux = [=](double z) {
+      const Point a = c_hat(x + 0.5 * z), v = u(x + z);
+      return Point{a.value * (u_x.value + v.value), 0.5 * a.slope * (u_x.value + v.value) + a.value * v.slope};
+    };
+    G = [=](double r) {
+      const double advection = divided_difference(pair_flux, -r, r);
+      const double divergence = nonlocal_divergence ? divided_difference(b, x - 0.5 * r, x + 0.5 * r) * u_x.value : 0.0;
+      const double bend = r > 0.0 ? (divided_difference(u, x, x + r) - divided_difference(u, x - r, x)) / r : 0.0;
+      return advection + divergence - delta * model.mu * 0.5 * bend;
+    };
+  }
+  const double a = model.kernel.origin_exponent, middle = model.kernel.breakpoint;
+  const auto integrate = [&](const Function& g, double lower, double upper, double exponent) {
+    const Function counted = [&](double z) {
+      ++points;
+      return g(z);
+    };
+    return rule == SourceRule::gsl ? integrate_gsl(counted, lower, upper, exponent)
+                                   : integrate_boost(counted, lower, upper, exponent);
+  };
+  const auto weighted = [&](double z) { return G(delta * z) * model.kernel.regular_part(z); };
+  double sum = integrate(weighted, 0.0, middle, 1.0 - a);
+  if (middle < 1.0) sum += integrate([&](double z) { return weighted(z) * std::pow(z, 1.0 - a); }, middle, 1.0, 0.0);
+  return sum;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,20 @@
+#pragma once
+
+/// @file
+/// Adaptive quadrature of the nonlocal terms, straight from their definitions: the reference for the fixed rule.
+
+#include <cstdint>
+
+#include "mms/source.hpp"
+
+namespace acstudy {
+
+/// The terms of the nonlocal model at (x, t) beyond du/dt and a local b' u: flux, nonlocal divergence, viscosity.
+///
+/// @param rule   gsl (QAWS, QAG) or boost (tanh-sinh)
+/// @param points incremented by the number of integrand evaluations
+/// @throws std::runtime_error if the quadrature does not reach its tolerance of 1e-14
+double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model, SourceRule rule, double x, double t,
+                                 std::int64_t& points);
+
+}  // namespace acstudy

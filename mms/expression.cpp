@@ -1,0 +1,314 @@
+#include "mms/expression.hpp"
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "mms/vector_math.hpp"
+
+namespace acstudy {
+
+namespace {
+
+using Op = Expression::Op;
+using Node = Expression::Node;
+
+struct Function {
+  const char* name;
+  Op op;
+};
+constexpr Function unary_functions[] = {
+    {"sin", Op::sin},   {"cos", Op::cos},   {"tan", Op::tan},   {"asin", Op::asin}, {"acos", Op::acos},
+    {"atan", Op::atan}, {"sinh", Op::sinh}, {"cosh", Op::cosh}, {"tanh", Op::tanh}, {"exp", Op::exp},
+    {"log", Op::log},   {"sqrt", Op::sqrt}, {"abs", Op::abs},
+};
+constexpr Function binary_functions[] = {{"atan2", Op::atan2}, {"min", Op::min}, {"max", Op::max}};
+
+/// The tape being recorded. muParser's callbacks are plain functions, so they find it here; what muParser takes for the
+/// value of a subexpression is the index of its node.
+thread_local std::vector<Node>* recording = nullptr;
+
+double record(Node node) {
+  auto& tape = *recording;
+  if (node.op != Op::constant && node.op != Op::variable) node.depends = tape[node.a].depends | tape[node.b].depends;
+  const auto same = std::find_if(tape.begin(), tape.end(), [&](const Node& old) {
+    return old.op == node.op && old.a == node.a && old.b == node.b &&
+           std::memcmp(&old.constant, &node.constant, sizeof(double)) == 0;
+  });
+  if (same != tape.end()) return static_cast<double>(same - tape.begin());
+  tape.push_back(node);
+  return static_cast<double>(tape.size() - 1);
+}
+
+template <Op op>
+double record_unary(double a) {
+  return record({.op = op, .a = static_cast<int>(a), .b = static_cast<int>(a)});
+}
+template <Op op>
+double record_binary(double a, double b) {
+  return record({.op = op, .a = static_cast<int>(a), .b = static_cast<int>(b)});
+}
+double same_node(double a) { return a; }
+
+/// muParser's hook for number literals.
+int record_number(const char* text, int* position, double* value) {
+  if (!(std::isdigit(static_cast<unsigned char>(*text)) || *text == '.')) return 0;
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text, text + std::strlen(text), number);
+  if (error != std::errc()) return 0;
+  *value = record({.op = Op::constant, .constant = number});
+  *position += static_cast<int>(end - text);
+  return 1;
+}
+
+template <std::size_t... i>
+void define_functions(mu::Parser& parser, std::index_sequence<i...>) {
+  (parser.DefineFun(unary_functions[i].name, record_unary<unary_functions[i].op>, false), ...);
+}
+
+std::string explain(const mu::ParserError& error, const std::vector<std::string>& variables) {
+  std::string token = error.GetToken();
+  token.erase(token.find_last_not_of(' ') + 1);
+  const auto functions = Expression::function_names();
+  switch (error.GetCode()) {
+    case mu::ecUNASSIGNABLE_TOKEN: {
+      if (std::find(functions.begin(), functions.end(), token) != functions.end()) {
+        return "the function \"" + token + "\" needs its argument in parentheses";
+      }
+      std::string names;
+      for (const auto& name : variables) names += (names.empty() ? "" : ", ") + name;
+      return "unknown name \"" + token + "\"; it may use " + names + ", pi, e and the usual functions";
+    }
+    case mu::ecUNEXPECTED_EOF: return "the expression ends too early";
+    case mu::ecMISSING_PARENS: return "a closing parenthesis is missing";
+    case mu::ecUNEXPECTED_PARENS: return "unexpected parenthesis \"" + token + "\"";
+    case mu::ecUNEXPECTED_OPERATOR: return "unexpected operator \"" + token + "\"";
+    case mu::ecUNEXPECTED_VAL:
+    case mu::ecUNEXPECTED_VAR: return "unexpected value \"" + token + "\"; an operator is missing before it";
+    case mu::ecUNEXPECTED_FUN: return "unexpected function \"" + token + "\"; an operator is missing before it";
+    case mu::ecUNEXPECTED_ARG_SEP: return "unexpected comma";
+    case mu::ecTOO_MANY_PARAMS: return "too many arguments for \"" + token + "\"";
+    case mu::ecTOO_FEW_PARAMS: return "too few arguments for \"" + token + "\"";
+    case mu::ecEMPTY_EXPRESSION: return "the expression is empty";
+    default: return "syntax error near \"" + token + "\"";
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> Expression::function_names() {
+  std::vector<std::string> names;
+  for (const auto& function : unary_functions) names.emplace_back(function.name);
+  for (const auto& function : binary_functions) names.emplace_back(function.name);
+  return names;
+}
+
+Expression::Expression(const std::string& text, const std::vector<std::string>& variables) : text_(text) {
+  if (text.find_first_not_of(" \t\n\r") == std::string::npos) throw ExpressionError(0, "the expression is empty");
+  if (const auto at = text.find_first_of("?:=<>!&|,;"); at != std::string::npos && text[at] != ',') {
+    throw ExpressionError(at, std::string("unexpected \"") + text[at] + "\"; an expression has no conditions");
+  }
+  recording = &tape_;
+  for (std::size_t i = 0; i < variables.size(); ++i) tape_.push_back({.op = Op::variable, .a = int(i), .depends = 1U << i});
+  try {
+    mu::Parser parser;
+    parser.EnableBuiltInOprt(false);
+    parser.EnableOptimizer(false);
+    parser.ClearFun();
+    parser.ClearConst();
+    parser.ClearInfixOprt();
+    parser.DefineOprt("+", record_binary<Op::add>, mu::prADD_SUB);
+    parser.DefineOprt("-", record_binary<Op::subtract>, mu::prADD_SUB);
+    parser.DefineOprt("*", record_binary<Op::multiply>, mu::prMUL_DIV);
+    parser.DefineOprt("/", record_binary<Op::divide>, mu::prMUL_DIV);
+    parser.DefineOprt("^", record_binary<Op::power>, mu::prPOW, mu::oaRIGHT);
+    parser.DefineInfixOprt("-", record_unary<Op::negate>, mu::prINFIX, false);
+    parser.DefineInfixOprt("+", same_node, mu::prINFIX, false);
+    define_functions(parser, std::make_index_sequence<std::size(unary_functions)>{});
+    parser.DefineFun("atan2", record_binary<Op::atan2>, false);
+    parser.DefineFun("min", record_binary<Op::min>, false);
+    parser.DefineFun("max", record_binary<Op::max>, false);
+    parser.AddValIdent(record_number);
+    parser.DefineConst("pi", record({.op = Op::constant, .constant = std::numbers::pi}));
+    parser.DefineConst("e", record({.op = Op::constant, .constant = std::numbers::e}));
+    for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineConst(variables[i], static_cast<double>(i));
+    parser.SetExpr(text);
+    int results = 0;
+    const double* values = parser.Eval(results);
+    if (results != 1) throw ExpressionError(text.find(','), "unexpected comma");
+    result_ = static_cast<std::size_t>(values[0]);
+  } catch (const mu::ParserError& error) {
+    const int position = error.GetPos();
+    const auto last = static_cast<int>(text.size()) - 1;
+    throw ExpressionError(static_cast<std::size_t>(std::clamp(position, 0, last)), explain(error, variables));
+  }
+}
+
+namespace {
+
+constexpr std::size_t block_size = 128;
+using Block = std::array<double, block_size>;
+
+/// Values and requested derivatives of every node for one block of points.
+struct Workspace {
+  std::vector<Block> value, by_first, by_second;
+};
+
+ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<Block>& value, Block& v, std::size_t n) {
+  const Block &a = value[node.a], &b = value[node.b];
+  const auto each = [&](auto&& f) {
+    for (std::size_t i = 0; i < n; ++i) v[i] = f(i);
+  };
+  switch (node.op) {
+    case Op::constant:
+    case Op::variable: break;
+    case Op::add: return each([&](auto i) { return a[i] + b[i]; });
+    case Op::subtract: return each([&](auto i) { return a[i] - b[i]; });
+    case Op::multiply: return each([&](auto i) { return a[i] * b[i]; });
+    case Op::divide: return each([&](auto i) { return a[i] / b[i]; });
+    case Op::power: return each([&](auto i) { return b[i] == 2.0 ? a[i] * a[i] : std::pow(a[i], b[i]); });
+    case Op::negate: return each([&](auto i) { return -a[i]; });
+    case Op::sin: return each([&](auto i) { return std::sin(a[i]); });
+    case Op::cos: return each([&](auto i) { return std::cos(a[i]); });
+    case Op::tan: return each([&](auto i) { return std::tan(a[i]); });
+    case Op::asin: return each([&](auto i) { return std::asin(a[i]); });
+    case Op::acos: return each([&](auto i) { return std::acos(a[i]); });
+    case Op::atan: return each([&](auto i) { return std::atan(a[i]); });
+    case Op::sinh: return each([&](auto i) { return std::sinh(a[i]); });
+    case Op::cosh: return each([&](auto i) { return std::cosh(a[i]); });
+    case Op::tanh: return each([&](auto i) { return std::tanh(a[i]); });
+    case Op::exp: return each([&](auto i) { return std::exp(a[i]); });
+    case Op::log: return each([&](auto i) { return std::log(a[i]); });
+    case Op::sqrt: return each([&](auto i) { return std::sqrt(a[i]); });
+    case Op::abs: return each([&](auto i) { return std::abs(a[i]); });
+    case Op::atan2: return each([&](auto i) { return std::atan2(a[i], b[i]); });
+    case Op::min: return each([&](auto i) { return std::min(a[i], b[i]); });
+    case Op::max: return each([&](auto i) { return std::max(a[i], b[i]); });
+  }
+}
+
+/// d = derivative of the node, from the derivatives of its operands; the values are already there. A constant operand is
+/// skipped rather than multiplied by zero, so that x^2 at x = 0 never meets log(0).
+ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction, const std::vector<Block>& value,
+                       const std::vector<Block>& derivative, const Block& v, Block& d, std::size_t n) {
+  const Block &a = value[node.a], &b = value[node.b];
+  const Block &da = derivative[node.a], &db = derivative[node.b];
+  const bool varies_a = (tape[node.a].depends & direction) != 0, varies_b = (tape[node.b].depends & direction) != 0;
+  const auto each = [&](auto&& f) {
+    for (std::size_t i = 0; i < n; ++i) d[i] = f(i);
+  };
+  switch (node.op) {
+    case Op::constant:
+    case Op::variable: break;
+    case Op::add: return each([&](auto i) { return da[i] + db[i]; });
+    case Op::subtract: return each([&](auto i) { return da[i] - db[i]; });
+    case Op::multiply: return each([&](auto i) { return da[i] * b[i] + a[i] * db[i]; });
+    case Op::divide: return each([&](auto i) { return (da[i] - v[i] * db[i]) / b[i]; });
+    case Op::power:
+      return each([&](auto i) {
+        const double base = varies_a ? b[i] * (b[i] == 2.0 ? a[i] : std::pow(a[i], b[i] - 1.0)) * da[i] : 0.0;
+        return varies_b ? base + v[i] * std::log(a[i]) * db[i] : base;
+      });
+    case Op::negate: return each([&](auto i) { return -da[i]; });
+    case Op::sin: return each([&](auto i) { return std::cos(a[i]) * da[i]; });
+    case Op::cos: return each([&](auto i) { return -std::sin(a[i]) * da[i]; });
+    case Op::tan: return each([&](auto i) { return (1.0 + v[i] * v[i]) * da[i]; });
+    case Op::asin: return each([&](auto i) { return da[i] / std::sqrt((1.0 - a[i]) * (1.0 + a[i])); });
+    case Op::acos: return each([&](auto i) { return -da[i] / std::sqrt((1.0 - a[i]) * (1.0 + a[i])); });
+    case Op::atan: return each([&](auto i) { return da[i] / (1.0 + a[i] * a[i]); });
+    case Op::sinh: return each([&](auto i) { return std::cosh(a[i]) * da[i]; });
+    case Op::cosh: return each([&](auto i) { return std::sinh(a[i]) * da[i]; });
+    case Op::tanh: return each([&](auto i) { return (1.0 - v[i] * v[i]) * da[i]; });
+    case Op::exp: return each([&](auto i) { return v[i] * da[i]; });
+    case Op::log: return each([&](auto i) { return da[i] / a[i]; });
+    case Op::sqrt: return each([&](auto i) { return 0.5 * da[i] / v[i]; });
+    case Op::abs: return each([&](auto i) { return a[i] < 0.0 ? -da[i] : da[i]; });
+    case Op::atan2:
+      return each([&](auto i) { return (da[i] * b[i] - a[i] * db[i]) / (a[i] * a[i] + b[i] * b[i]); });
+    case Op::min: return each([&](auto i) { return a[i] <= b[i] ? da[i] : db[i]; });
+    case Op::max: return each([&](auto i) { return a[i] >= b[i] ? da[i] : db[i]; });
+  }
+}
+
+}  // namespace
+
+void Expression::evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const {
+  thread_local Workspace workspace;
+  const bool first = !out.by_first.empty(), second = !out.by_second.empty();
+  const std::size_t nodes = result_ + 1;
+  if (workspace.value.size() < nodes) workspace.value.resize(nodes);
+  if (first && workspace.by_first.size() < nodes) workspace.by_first.resize(nodes);
+  if (second && workspace.by_second.size() < nodes) workspace.by_second.resize(nodes);
+  auto& [value, by_first, by_second] = workspace;
+
+  const auto derive = [&](std::size_t i, unsigned direction, std::vector<Block>& derivative, std::size_t n) {
+    const Node& node = tape_[i];
+    if ((node.depends & direction) == 0) {
+      derivative[i].fill(0.0);
+    } else if (node.op == Op::variable) {
+      derivative[i].fill(1.0);
+    } else {
+      sweep_derivatives(node, tape_, direction, value, derivative, value[i], derivative[i], n);
+    }
+  };
+  const auto spread = [](Block& block) { block.fill(block[0]); };
+
+  // Nodes that do not depend on x once per call, the others once per block of points.
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const Node& node = tape_[i];
+    if (node.depends & 1U) {
+      if (first && node.op == Op::variable) by_first[i].fill(1.0);
+      if (second && node.op == Op::variable) by_second[i].fill(0.0);
+      continue;
+    }
+    if (node.op == Op::constant) value[i].fill(node.constant);
+    if (node.op == Op::variable && static_cast<std::size_t>(node.a) <= rest.size()) {
+      value[i].fill(*(rest.begin() + node.a - 1));
+    }
+    sweep_values(node, value, value[i], vector_width);
+    spread(value[i]);
+    if (first) by_first[i].fill(0.0);
+    if (second) {
+      derive(i, 2U, by_second, vector_width);
+      spread(by_second[i]);
+    }
+  }
+
+  for (std::size_t begin = 0; begin < x.size(); begin += block_size) {
+    const std::size_t here = std::min(block_size, x.size() - begin);
+    // Whole vectors only: a remainder in scalar arithmetic would make f(x) depend on where in the array x stands.
+    const std::size_t n = (here + vector_width - 1) / vector_width * vector_width;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const Node& node = tape_[i];
+      if ((node.depends & 1U) == 0) continue;
+      if (node.op == Op::variable) {
+        std::copy_n(x.begin() + begin, here, value[i].begin());
+        std::fill(value[i].begin() + here, value[i].begin() + n, x[begin]);
+        continue;
+      }
+      sweep_values(node, value, value[i], n);
+      if (first) derive(i, 1U, by_first, n);
+      if (second) derive(i, 2U, by_second, n);
+    }
+    if (!out.value.empty()) std::copy_n(value[result_].begin(), here, out.value.begin() + begin);
+    if (first) std::copy_n(by_first[result_].begin(), here, out.by_first.begin() + begin);
+    if (second) std::copy_n(by_second[result_].begin(), here, out.by_second.begin() + begin);
+  }
+}
+
+double Expression::operator()(std::initializer_list<double> variables) const {
+  double value = 0.0;
+  const double x = variables.size() > 0 ? *variables.begin() : 0.0;
+  std::vector<double> v(variables);
+  double rest[3] = {0.0, 0.0, 0.0};
+  for (std::size_t i = 1; i < v.size(); ++i) rest[i - 1] = v[i];
+  evaluate({&x, 1}, {rest[0], rest[1], rest[2]}, {.value = {&value, 1}, .by_first = {}, .by_second = {}});
+  return value;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,72 @@
+#pragma once
+
+/// @file
+/// Expressions in named variables, evaluated for many points at once, with derivatives exact to round-off.
+
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace acstudy {
+
+/// A text that is no expression; `position` is the offset of the offending character.
+class ExpressionError : public std::runtime_error {
+ public:
+  ExpressionError(std::size_t at, const std::string& message) : std::runtime_error(message), position(at) {}
+  std::size_t position;
+};
+
+/// An expression such as "cos(2*x)/3".
+///
+/// muParser reads the text; its operators do not compute but record a tape, which is then swept over blocks of points.
+/// The same sweep propagates first derivatives (forward mode), hence exact to round-off.
+/// Immutable after construction, so shared freely between threads.
+class Expression {
+ public:
+  /// @param text       operators + - * / ^, parentheses, numbers, pi, e, and the functions of `function_names()`
+  /// @param variables  the names that may occur, at most 4
+  /// @throws ExpressionError
+  Expression(const std::string& text, const std::vector<std::string>& variables);
+
+  const std::string& text() const { return text_; }
+  bool depends_on(std::size_t variable) const { return (tape_[result_].depends >> variable & 1U) != 0; }
+  bool is_constant() const { return tape_[result_].depends == 0; }
+
+  /// The value at one point, the variables in their declared order.
+  double operator()(std::initializer_list<double> variables) const;
+
+  /// What to compute of f(x, p) at every x: the value, and where the span is not empty the derivatives.
+  struct Request {
+    std::span<double> value;  ///< f
+    std::span<double> by_first;   ///< df/dx, the first variable
+    std::span<double> by_second;  ///< df/dp, the second variable
+  };
+
+  /// Sweeps over points x of the first variable, the others (`rest`) being the same for all points.
+  void evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const;
+
+  /// Names of the functions that an expression may call.
+  static std::vector<std::string> function_names();
+
+  enum class Op : unsigned char {
+    constant, variable, add, subtract, multiply, divide, power, negate, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh,
+    exp, log, sqrt, abs, atan2, min, max
+  };
+  struct Node {
+    Op op;
+    int a = 0, b = 0;        ///< operands, earlier on the tape
+    double constant = 0.0;   ///< value of a constant
+    unsigned depends = 0;    ///< bit i: depends on variable i
+  };
+
+ private:
+  std::string text_;
+  std::vector<Node> tape_;
+  std::size_t result_ = 0;
+};
+
+}  // namespace acstudy

@@ -1,0 +1,182 @@
+#include "mms/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+
+namespace acstudy {
+
+namespace {
+
+Expression compile(const char* field, const std::string& text, const std::vector<std::string>& variables) {
+  try {
+    return Expression(text, variables);
+  } catch (const ExpressionError& error) {
+    throw SceneError(field, error.position, error.what());
+  }
+}
+
+double positive_constant(const char* field, const std::string& text) {
+  const double value = compile(field, text, {})({});
+  if (!std::isfinite(value) || value <= 0.0) {
+    throw SceneError(field, 0, fmt::format("{} = {:.6g}; it must be positive and finite", field, value));
+  }
+  return value;
+}
+
+/// An odd number of cells, so that a field of a smaller period is not sampled at its own multiples only.
+constexpr int sample_count = 257;
+
+std::vector<double> samples(double period) {
+  std::vector<double> x(sample_count);
+  for (int i = 0; i < sample_count; ++i) x[i] = period * i / sample_count;
+  return x;
+}
+
+}  // namespace
+
+Scene::Scene(SceneText text)
+    : text_(std::move(text)),
+      period_(positive_constant("period", text_.period)),
+      T_(positive_constant("T", text_.T)),
+      c_(compile("c", text_.c, {"x"})),
+      u_(compile("u", text_.u, {"x", "t"})) {
+  if (text_.b) {
+    b_ = compile("b", *text_.b, {"x"});
+    check_periodic("b", *b_);
+    if (b_->is_constant() && (*b_)({0.0}) == 0.0) b_.reset();
+  }
+  if (text_.flow) {
+    if (!text_.b) throw SceneError("flow", 0, "a flow without b; particles stand still unless b is given");
+    flow_ = compile("flow", *text_.flow, {"x", "t"});
+    if (b_) check_flow();
+  }
+  check_periodic("c", c_);
+  check_periodic("u", u_);
+}
+
+void Scene::check_periodic(const char* field, const Expression& expression) const {
+  const auto x = samples(period_);
+  std::vector<double> shifted(x), here(x.size()), there(x.size());
+  for (double& value : shifted) value += period_;
+  for (const double t : {0.0, 0.37 * T_, T_}) {
+    expression.evaluate(x, {t}, {here, {}, {}});
+    expression.evaluate(shifted, {t}, {there, {}, {}});
+    double scale = 0.0, gap = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!std::isfinite(here[i])) {
+        throw SceneError(field, 0, fmt::format("{} is {} at x = {:.6g}; it must be finite everywhere", field, here[i], x[i]));
+      }
+      scale = std::max(scale, std::abs(here[i]));
+      gap = std::max(gap, std::abs(here[i] - there[i]));
+    }
+    if (!(gap <= 1e-9 * scale)) {
+      throw SceneError(field, 0, fmt::format("{0} is not periodic: {0}(x + {1:.6g}) and {0}(x) differ by {2:.3g}", field,
+                                             period_, gap));
+    }
+  }
+}
+
+void Scene::check_flow() const {
+  const auto x = samples(period_);
+  std::vector<double> position(x.size()), speed(x.size()), b(x.size());
+  for (const double t : {0.0, 0.37 * T_, T_}) {
+    flow_->evaluate(x, {t}, {position, {}, speed});
+    this->b(position, b);
+    double scale = 0.0, gap = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (t == 0.0 && !(std::abs(position[i] - x[i]) <= 1e-9 * period_)) {
+        throw SceneError("flow", 0, fmt::format("the flow at t = 0 takes x = {:.6g} to {:.6g}; it must leave it there", x[i],
+                                                position[i]));
+      }
+      scale = std::max(scale, std::abs(b[i]));
+      gap = std::max(gap, std::isfinite(speed[i]) ? std::abs(speed[i] - b[i]) : std::abs(speed[i]));
+    }
+    if (!(gap <= 1e-9 * std::max(scale, 1e-300))) {
+      throw SceneError("flow", 0, fmt::format("the flow does not follow b: its velocity differs from b by {:.3g} at t = {:.3g}; "
+                                              "leave it out to have it integrated", gap, t));
+    }
+    if (!std::is_sorted(position.begin(), position.end()) || !(position.back() < position.front() + period_)) {
+      throw SceneError("flow", 0, fmt::format("the flow does not keep particles in order at t = {:.3g}; it may jump where "
+                                              "it wraps around the period", t));
+    }
+  }
+}
+
+double Scene::max_relative_velocity() const {
+  constexpr int count = 4096;
+  std::vector<double> x(count), relative(count), b_values(count, 0.0);
+  for (int i = 0; i < count; ++i) x[i] = period_ * i / count;
+  const auto fill = [&](std::span<const double> points, std::span<double> out, std::span<double> scratch) {
+    c(points, out);
+    if (!standing()) b(points, scratch);
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = std::abs(out[i] - (standing() ? 0.0 : scratch[i]));
+  };
+  fill(x, relative, b_values);
+  const auto top = std::max_element(relative.begin(), relative.end());
+  const double middle = x[top - relative.begin()], cell = period_ / count;
+  const auto negative = [&](double point) {
+    double value = 0.0, scratch = 0.0;
+    fill({&point, 1}, {&value, 1}, {&scratch, 1});
+    return -value;
+  };
+  const auto [point, value] = boost::math::tools::brent_find_minima(negative, middle - cell, middle + cell, 52);
+  return std::max(*top, -value);
+}
+
+Trajectories::Trajectories(const Scene& scene, std::vector<double> start)
+    : scene_(scene), start_(std::move(start)), x_(start_) {}
+
+std::span<const double> Trajectories::at(double t) {
+  if (t == t_) return x_;
+  if (scene_.flow()) {
+    scene_.flow()->evaluate(start_, {t}, {x_, {}, {}});
+  } else {
+    namespace odeint = boost::numeric::odeint;
+    using State = std::vector<double>;
+    const auto velocity = [this](const State& x, State& dxdt, double) { scene_.b(x, dxdt); };
+    odeint::integrate_adaptive(odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(1e-14, 1e-14), velocity, x_, t_,
+                               t, t - t_);
+  }
+  t_ = t;
+  return x_;
+}
+
+const std::vector<SceneText>& named_scenes() {
+  static const std::vector<SceneText> scenes = {
+      {.name = "lee-du-2019",
+       .period = "2*pi",
+       .T = "1",
+       .c = "cos(2*x)/3",
+       .b = "sin(x)",
+       .u = "cos(x - t)",
+       .flow = "2*atan2(sin(x/2)*exp(t), cos(x/2))"},
+      {.name = "standing-variable-velocity",
+       .period = "2*pi",
+       .T = "1",
+       .c = "1 + sin(x)/2",
+       .b = std::nullopt,
+       .u = "sin(x - t) + cos(2*x)/4",
+       .flow = std::nullopt},
+      {.name = "constant-velocity",
+       .period = "1",
+       .T = "1/2",
+       .c = "1",
+       .b = std::nullopt,
+       .u = "sin(2*pi*(x - t))",
+       .flow = std::nullopt},
+      {.name = "lagrangian",
+       .period = "2*pi",
+       .T = "1",
+       .c = "sin(x)",
+       .b = "sin(x)",
+       .u = "2 + cos(x - t)",
+       .flow = "2*atan2(sin(x/2)*exp(t), cos(x/2))"},
+  };
+  return scenes;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,106 @@
+#pragma once
+
+/// @file
+/// A scene: what is solved, free of any discretization.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mms/expression.hpp"
+
+namespace acstudy {
+
+/// A scene as text; also how named scenes are written down.
+struct SceneText {
+  std::string name;                 ///< empty for a scene given inline
+  std::string period, T;            ///< constants, "2*pi"
+  std::string c;                    ///< advection velocity c(x)
+  std::optional<std::string> b;     ///< particle velocity b(x); absent: particles stand still
+  std::string u;                    ///< exact solution u(x, t)
+  std::optional<std::string> flow;  ///< position at time t of the particle that starts at x; absent: integrated
+};
+
+/// A scene that is not sound; `field` is the member of SceneText at fault, `position` an offset within its text.
+class SceneError : public std::runtime_error {
+ public:
+  SceneError(std::string member, std::size_t at, const std::string& message)
+      : std::runtime_error(message), field(std::move(member)), position(at) {}
+  std::string field;
+  std::size_t position;
+};
+
+/// Fields, their derivatives and the flow on a periodic interval. Immutable; shared between threads.
+///
+/// Models ParticleVelocity: `c`, `b`, `b_prime` fill whole arrays.
+class Scene {
+ public:
+  /// Compiles the texts and checks what they promise: finite values, period and T positive, fields periodic, the flow a
+  /// solution of x' = b(x) that starts at x.
+  /// @throws SceneError
+  explicit Scene(SceneText text);
+
+  const SceneText& text() const { return text_; }
+  double period() const { return period_; }
+  double T() const { return T_; }
+  /// True if b is absent or identically zero: no particle ever moves.
+  bool standing() const { return !b_; }
+
+  void c(std::span<const double> x, std::span<double> out) const { c_.evaluate(x, {}, {out, {}, {}}); }
+  void c(std::span<const double> x, std::span<double> out, std::span<double> c_prime) const {
+    c_.evaluate(x, {}, {out, c_prime, {}});
+  }
+  /// @pre !standing()
+  void b(std::span<const double> x, std::span<double> out) const { b_->evaluate(x, {}, {out, {}, {}}); }
+  void b(std::span<const double> x, std::span<double> out, std::span<double> b_prime) const {
+    b_->evaluate(x, {}, {out, b_prime, {}});
+  }
+  void b_prime(std::span<const double> x, std::span<double> out) const { b_->evaluate(x, {}, {{}, out, {}}); }
+
+  /// Exact solution and, where the span is not empty, u_x and u_t.
+  void u(std::span<const double> x, double t, std::span<double> u, std::span<double> u_x = {},
+         std::span<double> u_t = {}) const {
+    u_.evaluate(x, {t}, {u, u_x, u_t});
+  }
+
+  /// max |c - b| over the period, to round-off: the default of Model II's viscosity bound mu.
+  double max_relative_velocity() const;
+
+  /// The flow in closed form, if the scene has one.
+  const std::optional<Expression>& flow() const { return flow_; }
+
+ private:
+  void check_periodic(const char* field, const Expression& expression) const;
+  void check_flow() const;
+
+  SceneText text_;
+  double period_, T_;
+  Expression c_;
+  std::optional<Expression> b_;
+  Expression u_;
+  std::optional<Expression> flow_;
+};
+
+/// The particles' positions over time, x' = b(x): in closed form, or integrated to round-off.
+class Trajectories {
+ public:
+  /// @pre !scene.standing(); `scene` outlives the trajectories
+  Trajectories(const Scene& scene, std::vector<double> start);
+
+  /// Positions at time t, 0 <= t. Times may go back and forth; unwrapped, so that order is kept across the period.
+  std::span<const double> at(double t);
+
+ private:
+  const Scene& scene_;
+  std::vector<double> start_, x_;
+  double t_ = 0.0;
+};
+
+/// The scenes that a study can name.
+const std::vector<SceneText>& named_scenes();
+
+}  // namespace acstudy

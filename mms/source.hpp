@@ -1,0 +1,52 @@
+#pragma once
+
+/// @file
+/// Manufactured sources: the f that makes the exact u of a scene solve the PDE or a nonlocal model.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "mms/quadrature.hpp"
+#include "mms/scene.hpp"
+
+namespace acstudy {
+
+/// A continuum nonlocal model: which one, how its divergence is written, at which horizon.
+struct NonlocalModel {
+  int model;                 ///< 1: upwind kernel, 2: vanishing nonlocal viscosity
+  bool nonlocal_divergence;  ///< (2.10), (3.9) instead of (2.8), (3.7); of no matter where particles stand still
+  KernelProfile kernel;
+  double delta;
+  double mu;  ///< Model II only
+};
+
+/// How nonlocal sources are integrated: a fixed Gauss rule, or adaptively by a library (slow; the reference).
+enum class SourceRule { gauss, gsl, boost };
+
+/// The manufactured source in the moving frame, f = du/dt + b' u + (c_hat u)_x or its nonlocal counterpart.
+class Source {
+ public:
+  virtual ~Source() = default;
+  /// Takes note of where the particles are and of the velocities there; once where they stand still.
+  virtual void place(std::span<const double> x) = 0;
+  /// f_j = f(x_j, t).  @pre place() was called
+  virtual void evaluate(double t, std::span<double> f) = 0;
+  /// Integrand evaluations so far.
+  virtual std::int64_t quadrature_points() const { return 0; }
+};
+
+/// u solves the PDE (1.1): f = u_t + (c u)_x, the same in every frame. No quadrature.
+std::unique_ptr<Source> local_source(const Scene& scene);
+
+/// u solves the nonlocal model at this horizon. The scene must outlive the source.
+///
+/// Each nonlocal derivative is the average of a local one over the horizon, by the Gauss rule of the kernel's own weight
+/// (see `derivative_rule`), with the fewest points that agree with a much finer rule to round-off on this scene.
+/// @throws std::domain_error if no rule of up to 40 points does: the fields are too rough at this horizon
+std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, SourceRule rule = SourceRule::gauss);
+
+/// The same with a given number of Gauss points.
+std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, std::size_t points);
+
+}  // namespace acstudy

@@ -1,0 +1,209 @@
+#include "reports/orders.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+
+namespace acstudy {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+struct NamedVerdict {
+  Verdict verdict;
+  std::string_view name;
+};
+constexpr NamedVerdict names[] = {
+    {Verdict::confirmed, "confirmed"}, {Verdict::pre_asymptotic, "pre-asymptotic"}, {Verdict::below, "below"},
+    {Verdict::above, "above"},         {Verdict::stagnates, "stagnates"},           {Verdict::floor, "floor"},
+    {Verdict::diverges, "diverges"},   {Verdict::unstable, "unstable"},             {Verdict::inconclusive, "inconclusive"},
+};
+
+/// Errors of this size are round-off of a solution of order one, accumulated over a run.
+constexpr double round_off = 1e-12;
+
+struct Line {
+  double intercept, slope, residual;  ///< residual: sum of squares
+};
+
+/// Least squares of y = intercept + slope x.
+Line fit_line(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  Eigen::MatrixXd A(x.size(), 2);
+  A << Eigen::VectorXd::Ones(x.size()), x;
+  const Eigen::VectorXd p = A.colPivHouseholderQr().solve(y);
+  return {p[0], p[1], (A * p - y).squaredNorm()};
+}
+
+/// p of error = C v^p (1 + D v): for a given D a line in logarithms; D by a scan and Brent's minimization.
+double extrapolated_order(const Eigen::VectorXd& v, const Eigen::VectorXd& log_v, const Eigen::VectorXd& log_e) {
+  const auto fit = [&](double D) {
+    const Eigen::VectorXd corrected = log_e.array() - (D * v / v.maxCoeff()).array().log1p();
+    return fit_line(log_v, corrected);
+  };
+  constexpr double lowest = -0.95, highest = 20.0;
+  constexpr int cells = 60;
+  const auto D_at = [&](int i) { return std::expm1(std::log1p(lowest) + (std::log1p(highest) - std::log1p(lowest)) * i / cells); };
+  int best = 0;
+  for (int i = 1; i <= cells; ++i) {
+    if (fit(D_at(i)).residual < fit(D_at(best)).residual) best = i;
+  }
+  const auto [D, residual] = boost::math::tools::brent_find_minima([&](double trial) { return fit(trial).residual; },
+                                                                   D_at(std::max(best - 1, 0)),
+                                                                   D_at(std::min(best + 1, cells)), 40);
+  return fit(D).slope;
+}
+
+std::string listed(const std::vector<double>& orders) { return fmt::format("{:.2f}", fmt::join(orders, ", ")); }
+
+/// Sets verdict and reason where the levels themselves allow no order.
+bool judge_levels(std::span<const Level> levels, Judgement& result) {
+  const auto conclude = [&](Verdict verdict, std::string reason) {
+    result.verdict = verdict;
+    result.reason = std::move(reason);
+    return true;
+  };
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (!std::isfinite(levels[i].error)) {
+      return conclude(Verdict::unstable, fmt::format("the error of level {} of {} is {}", i + 1, levels.size(), levels[i].error));
+    }
+  }
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (levels[i].error < 0.0) {
+      return conclude(Verdict::inconclusive, fmt::format("the error of level {} is negative: {:.3g}", i + 1, levels[i].error));
+    }
+    if (!(levels[i].variable > 0.0) || !std::isfinite(levels[i].variable)) {
+      return conclude(Verdict::inconclusive, fmt::format("the variable of level {} is {:.3g}; it must be positive", i + 1,
+                                                         levels[i].variable));
+    }
+    if (i > 0 && !(levels[i].variable < levels[i - 1].variable)) {
+      return conclude(Verdict::inconclusive, fmt::format("level {} does not refine level {}: the variable goes from {:.3g} to {:.3g}",
+                                                         i + 1, i, levels[i - 1].variable, levels[i].variable));
+    }
+  }
+  if (levels.size() < 3) {
+    return conclude(Verdict::inconclusive, fmt::format("{} level(s); an order with an interval needs at least 3", levels.size()));
+  }
+  const auto smallest = std::min_element(levels.begin(), levels.end(), [](auto a, auto b) { return a.error < b.error; });
+  const double first = levels.front().error, last = levels.back().error;
+  if (last <= round_off) {
+    return conclude(Verdict::floor, fmt::format("the finest error, {:.2g}, is round-off", last));
+  }
+  if (smallest->error == 0.0) {
+    return conclude(Verdict::inconclusive, "an error is exactly zero, though finer levels are not");
+  }
+  // Algebraic growth is "diverges"; growth faster than any scheme's order is the signature of an instability.
+  if (last > smallest->error) {
+    const double growth = std::log(last / smallest->error) / std::log(smallest->variable / levels.back().variable);
+    if (growth > 4.0) {
+      return conclude(Verdict::unstable, fmt::format("the error grows from {:.2g} to {:.2g}, like the variable to the power {:.1f}",
+                                                     smallest->error, last, -growth));
+    }
+    if (last > first) {
+      return conclude(Verdict::diverges, fmt::format("the error grows from {:.2g} to {:.2g} under refinement", first, last));
+    }
+  }
+  return false;
+}
+
+/// Sets verdict and reason for finite, positive, falling errors.
+void judge_order(std::span<const Level> levels, double theory, Judgement& result) {
+  const auto agrees = [&](double order) { return std::abs(order - theory) <= order_tolerance; };
+  const auto& pairwise = result.pairwise;
+  const double last = pairwise.back();
+  const std::string fitted = fmt::format("order {:.2f} [{:.2f}, {:.2f}]", result.order, result.low, result.high);
+
+  bool approaching = true;
+  for (std::size_t i = 1; i < pairwise.size(); ++i) {
+    approaching = approaching && std::abs(pairwise[i] - theory) < std::abs(pairwise[i - 1] - theory);
+  }
+  const auto conclude = [&](Verdict verdict, std::string reason) {
+    result.verdict = verdict;
+    result.reason = std::move(reason);
+  };
+
+  if (theory == 0.0) {
+    if (std::abs(last) <= order_tolerance) {
+      return conclude(Verdict::stagnates, fmt::format("the error settles at {:.3g}, last pairwise order {:.2f}, as theory says",
+                                                      levels.back().error, last));
+    }
+    return conclude(Verdict::inconclusive, fmt::format("the error has not settled: pairwise orders {}", listed(pairwise)));
+  }
+  if (result.high - result.low > 2.0 && !approaching) {
+    return conclude(Verdict::inconclusive, fmt::format("{}: the interval is too wide to judge; pairwise orders {}", fitted,
+                                                       listed(pairwise)));
+  }
+  if (agrees(result.order) && agrees(last)) {
+    return conclude(Verdict::confirmed, fmt::format("{} and last pairwise order {:.2f} agree with theory's {:g}", fitted, last, theory));
+  }
+  if (approaching && agrees(result.extrapolated)) {
+    return conclude(Verdict::pre_asymptotic,
+                    fmt::format("pairwise orders {} move toward {:g} and extrapolate to {:.2f}; the fitted {} is not there yet",
+                                listed(pairwise), theory, result.extrapolated, fitted));
+  }
+  if (last < 0.25 * theory) {
+    return conclude(Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}", levels.back().error,
+                                                    listed(pairwise)));
+  }
+  const double distance = agrees(last) ? result.order - theory : last - theory;
+  conclude(distance < 0.0 ? Verdict::below : Verdict::above,
+           fmt::format("{}, theory says {:g}; pairwise orders {} do not approach it within {:g}", fitted, theory, listed(pairwise),
+                       order_tolerance));
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  return std::find_if(std::begin(names), std::end(names), [&](auto& entry) { return entry.verdict == verdict; })->name;
+}
+
+std::optional<Verdict> verdict_from(std::string_view text) {
+  const auto* const found = std::find_if(std::begin(names), std::end(names), [&](auto& entry) { return entry.name == text; });
+  return found == std::end(names) ? std::nullopt : std::optional(found->verdict);
+}
+
+bool meets(Verdict verdict, Verdict expected) {
+  return verdict == expected || (expected == Verdict::confirmed && verdict == Verdict::pre_asymptotic);
+}
+
+Judgement judge(std::span<const Level> levels, double theory_order) {
+  Judgement result{unknown, unknown, unknown, unknown, {}, Verdict::inconclusive, ""};
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    result.pairwise.push_back(std::log(levels[i - 1].error / levels[i].error) /
+                              std::log(levels[i - 1].variable / levels[i].variable));
+  }
+  const bool judged = judge_levels(levels, result);
+
+  const bool fittable = std::all_of(levels.begin(), levels.end(), [](const Level& level) {
+    return std::isfinite(level.error) && level.error > 0.0 && std::isfinite(level.variable) && level.variable > 0.0;
+  });
+  if (fittable && levels.size() >= 3) {
+    const auto n = static_cast<Eigen::Index>(levels.size());
+    Eigen::VectorXd v(n), log_v(n), log_e(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      v[i] = levels[i].variable;
+      log_v[i] = std::log(levels[i].variable);
+      log_e[i] = std::log(levels[i].error);
+    }
+    const double spread = (log_v.array() - log_v.mean()).square().sum();
+    if (spread > 0.0) {
+      const Line line = fit_line(log_v, log_e);
+      const double t = boost::math::quantile(boost::math::students_t(static_cast<double>(n - 2)), 0.975);
+      const double half_width = t * std::sqrt(line.residual / static_cast<double>(n - 2) / spread);
+      result.order = line.slope;
+      result.low = line.slope - half_width;
+      result.high = line.slope + half_width;
+      if (n >= 4) result.extrapolated = extrapolated_order(v, log_v, log_e);
+    }
+  }
+  if (!judged) judge_order(levels, theory_order, result);
+  return result;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,192 @@
+"""Result files of acstudy, read into plain records: Study > Series > one array entry per case.
+
+Reading only: nothing here computes, draws or writes. The layout is the format "acstudy-1" that `acstudy run` writes.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+import math
+import re
+
+import h5py
+import numpy as np
+
+FORMAT = "acstudy-1"
+
+
+class ResultError(Exception):
+    """A file that cannot be read as a result of acstudy; the text is one line: file, what is wrong, remedy."""
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """What is discretized with what: everything of a scheme but the horizon and the steps."""
+    model: int          # 1: upwind kernel, 2: renormalized SPH with nonlocal viscosity
+    divergence: str     # "local" | "nonlocal"
+    kernel: str
+    alpha: float | None  # exponent of the power kernel
+    mu: float | None     # viscosity bound of Model II
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is solved, free of any discretization. `b` and `flow` are empty where the study has none."""
+    name: str
+    period: float
+    T: float
+    c: str
+    b: str
+    u: str
+    flow: str
+
+
+@dataclass(frozen=True)
+class Cases:
+    """The cases of a series, coarse to fine: every member is an array [n], but `pairwise`, which is [n - 1]."""
+    N: np.ndarray
+    h: np.ndarray
+    delta: np.ndarray
+    dt: np.ndarray
+    steps: np.ndarray
+    variable: np.ndarray        # value of the theory's variable
+    error_linf: np.ndarray
+    seconds: np.ndarray         # whole time loop, median over repeats
+    seconds_low: np.ndarray
+    seconds_high: np.ndarray
+    repeats: np.ndarray
+    work_pairs: np.ndarray
+    work_weight_builds: np.ndarray
+    work_quadrature_points: np.ndarray
+    pairwise: np.ndarray        # orders between neighboring levels, in the theory's variable
+
+    def __len__(self):
+        return len(self.N)
+
+
+@dataclass(frozen=True)
+class Series:
+    """One scheme along one refinement path, with the theory's claim and the verdict. NaN: not available."""
+    scheme: Scheme
+    path: str
+    source: str         # which equation the manufactured source makes u solve: "local" | "nonlocal"
+    delta_text: str
+    step_text: str
+    integrator: str
+    theory_variable: str
+    theory_order: float
+    theory_statement: str
+    observed_order: float
+    observed_low: float
+    observed_high: float
+    extrapolated_order: float
+    verdict: str
+    expected: str
+    as_expected: bool
+    reason: str
+    cases: Cases
+
+
+@dataclass(frozen=True)
+class Study:
+    """One result file."""
+    file: Path
+    name: str
+    title: str
+    text: str           # the study file, whole
+    provenance: dict    # name -> text, in alphabetic order
+    scene: Scene
+    series: tuple
+
+
+def read_study(path):
+    """The study in the result file `path`; ResultError if the file is missing, damaged or of another format."""
+    path = Path(path)
+    try:
+        with h5py.File(path, "r") as file:
+            return _study(path, file)
+    except OSError as error:
+        if not path.is_file():
+            raise ResultError(f"{path}: no such file; run the study first") from error
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise ResultError(f"{path}: not a readable HDF5 file ({reason}); "
+                          "run the study again or move the file away") from error
+    except (KeyError, RuntimeError, TypeError, ValueError) as error:
+        reason = " ".join(str(error).strip("'\"").split())
+        raise ResultError(f"{path}: {reason}; run the study again") from error
+
+
+def _study(path, file):
+    found = _text(file, "format", "")
+    if found != FORMAT:
+        raise ResultError(f'{path}: format = "{found}"; not a result file of acstudy; '
+                          f'write one of format "{FORMAT}" with "acstudy run"')
+    name = _text(file, "study")
+    # The name becomes file names beside the report: it must not lead out of the folder.
+    if not re.fullmatch(r"[a-z0-9-]+", name):
+        raise ResultError(f'{path}: study = "{name}"; a study is named by [a-z0-9-]+; rename it and run it again')
+    provenance = file["provenance"]
+    series = file["series"] if "series" in file else {}
+    return Study(
+        file=path,
+        name=name,
+        title=_text(file, "title"),
+        text=_text(file, "study_text", ""),
+        provenance={key: _text(provenance, key) for key in sorted(provenance.attrs)},
+        scene=_scene(file["scene"]),
+        series=tuple(_series(series[key]) for key in sorted(series)))
+
+
+def _scene(group):
+    return Scene(name=_text(group, "name"), period=_number(group, "period"), T=_number(group, "T"),
+                 c=_text(group, "c"), b=_text(group, "b", ""), u=_text(group, "u"), flow=_text(group, "flow", ""))
+
+
+def _series(group):
+    scheme = Scheme(model=int(_number(group, "model")), divergence=_text(group, "divergence"),
+                    kernel=_text(group, "kernel"), alpha=_optional(group, "alpha"), mu=_optional(group, "mu"))
+    texts = ("path", "source", "delta_text", "step_text", "integrator", "theory_variable", "theory_statement",
+             "verdict", "expected", "reason")
+    numbers = ("theory_order", "observed_order", "observed_low", "observed_high", "extrapolated_order")
+    return Series(scheme=scheme, as_expected=bool(_number(group, "as_expected")), cases=_cases(group),
+                  **{name: _text(group, name) for name in texts},
+                  **{name: _number(group, name) for name in numbers})
+
+
+def _cases(group):
+    integers = ("N", "steps", "repeats", "work_pairs", "work_weight_builds", "work_quadrature_points")
+    arrays = {}
+    for name in Cases.__dataclass_fields__:
+        if name not in group:
+            raise KeyError(f"{group.name}: no dataset {name}")
+        values = np.atleast_1d(group[name][()])
+        arrays[name] = values.astype(np.int64 if name in integers else float)
+    n = len(arrays["N"])
+    for name, values in arrays.items():
+        expected = max(n - 1, 0) if name == "pairwise" else n
+        if values.shape != (expected,):
+            raise ValueError(f"{group.name}/{name}: shape {values.shape}, but {expected} entries belong to {n} cases")
+    return Cases(**arrays)
+
+
+def _attribute(group, name, default):
+    if name in group.attrs:
+        return group.attrs[name]
+    if default is None:
+        raise KeyError(f"{group.name}: no attribute {name}")
+    return default
+
+
+def _text(group, name, default=None):
+    value = _attribute(group, name, default)
+    if isinstance(value, np.ndarray) and value.size == 1:
+        value = value.item()
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def _number(group, name, default=None):
+    return float(np.asarray(_attribute(group, name, default)).item())
+
+
+def _optional(group, name):
+    value = _number(group, name, math.nan)
+    return None if math.isnan(value) else value

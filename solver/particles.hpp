@@ -1,0 +1,82 @@
+#pragma once
+
+/// @file
+/// Particles on a periodic interval and the windows through which a scheme sees its neighbors.
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace acstudy {
+
+/// Values at the particles j = 0 .. N-1, readable at j - k and j + k after `wrap(k)`.
+///
+/// A neighbor sum then runs over consecutive memory: ghosts cost 2k copies once, an index modulo N would cost every pair.
+class PeriodicArray {
+ public:
+  explicit PeriodicArray(std::size_t size = 0) : size_(size), values_(3 * size) {}
+
+  std::size_t size() const { return size_; }
+  double operator[](std::ptrdiff_t j) const { return values_[static_cast<std::size_t>(j + std::ssize(*this))]; }
+  double& operator[](std::ptrdiff_t j) { return values_[static_cast<std::size_t>(j + std::ssize(*this))]; }
+
+  /// Pointer to entry j; valid for reading at offsets up to the wrapped reach.
+  const double* at(std::ptrdiff_t j) const { return values_.data() + j + std::ssize(*this); }
+
+  std::span<const double> values() const { return {values_.data() + size_, size_}; }
+  std::span<double> values() { return {values_.data() + size_, size_}; }
+
+  /// Makes entries -reach .. -1 and N .. N+reach-1 the periodic images; `period` is added per turn (0 for fields).
+  /// @pre reach <= N
+  void wrap(std::ptrdiff_t reach, double period = 0.0) {
+    const std::ptrdiff_t n = std::ssize(*this);
+    assert(reach <= n);
+    for (std::ptrdiff_t k = 0; k < reach; ++k) {
+      (*this)[n + k] = (*this)[k] + period;
+      (*this)[-1 - k] = (*this)[n - 1 - k] - period;
+    }
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<double> values_;
+};
+
+/// How many neighbors each particle sees: l_j to its left and r_j to its right, each at least one.
+struct Windows {
+  std::vector<int> left, right;
+  int widest = 0;
+};
+
+/// A neighbor at exactly the horizon is inside; round-off in a position must not decide.
+inline constexpr double horizon_tie_tolerance = 1e-11;
+
+/// Windows of sorted particles by two pointers, O(N).
+///
+/// The left windows are read off the right ones, so that i sees j exactly when j sees i, ties included.
+/// @param x       positions, x_0 < ... < x_{N-1} < x_0 + period, N >= 3
+/// @param delta   horizon, 0 < delta < period / 2
+void find_windows(std::span<const double> x, double period, double delta, Windows& windows);
+
+/// Particles at one instant.
+struct Particles {
+  /// @throws std::invalid_argument unless count >= 3, period > 0 and 0 < delta < period / 2 (all finite).
+  Particles(std::size_t count, double period, double delta);
+
+  std::size_t size() const { return x.size(); }
+
+  /// Accepts new positions: finds the windows and wraps the positions as far as they reach.
+  /// @throws std::domain_error if the positions are not strictly increasing within one period.
+  void place(std::span<const double> positions);
+
+  PeriodicArray x;
+  double period;
+  double delta;
+  Windows windows;
+};
+
+/// Positions x_j = j period / N of the uniform start.
+std::vector<double> uniform_positions(std::size_t count, double period);
+
+}  // namespace acstudy

@@ -1,0 +1,212 @@
+/// @file
+/// The command line: acstudy run | check | explain | list.
+
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "build_info.hpp"
+#include "studies/check.hpp"
+#include "studies/explain.hpp"
+#include "studies/runner.hpp"
+
+namespace {
+
+using namespace acstudy;
+namespace fs = std::filesystem;
+
+enum Exit { done = 0, departs = 1, bad_input = 2, numerical_failure = 3, machine_failure = 4, interrupted = 130 };
+
+std::atomic<bool> stop{false};
+
+extern "C" void on_signal(int) { stop = true; }
+
+/// Processors that this process may use, which a container or batch system can make fewer than the machine has.
+int available_processors() {
+#ifdef __linux__
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
+#endif
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+std::vector<Study> read_studies(const std::vector<std::string>& files) {
+  std::vector<Study> studies;
+  std::set<std::string> names;
+  for (const std::string& file : files) {
+    studies.push_back(read_study(file));
+    if (!names.insert(studies.back().name).second) {
+      throw InputError(fmt::format("{}: a second study named \"{}\"; it would overwrite the results of the first", file,
+                                   studies.back().name));
+    }
+  }
+  return studies;
+}
+
+/// Makes the output folder and tries it, before hours of work depend on it.
+void prepare_folder(const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  const fs::path probe = out / ".acstudy-writable";
+  std::FILE* const file = error ? nullptr : std::fopen(probe.c_str(), "w");
+  if (file == nullptr) {
+    throw InputError(fmt::format("{}: cannot write to the output folder: {}; name another one with --out", out.string(),
+                                 error ? error.message() : std::strerror(errno)));
+  }
+  std::fclose(file);
+  fs::remove(probe, error);
+}
+
+std::string interval(const Judgement& judgement) {
+  if (std::isnan(judgement.order)) return "-";
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", judgement.order, judgement.low, judgement.high);
+}
+
+void print_row(bool passes, std::string_view study, std::string_view series, const Judgement& judgement, Verdict expected,
+               std::string_view remark) {
+  fmt::print("{:<6} {:<12} {:<58} {:<20} {:<15}", passes ? "ok" : "DEPART", study, series, interval(judgement),
+             name_of(judgement.verdict));
+  if (!passes && expected != judgement.verdict) fmt::print(" expected {}", name_of(expected));
+  if (!passes) fmt::print("; {}", remark);
+  fmt::print("\n");
+}
+
+int run(const std::vector<std::string>& files, RunOptions options) {
+  const std::vector<Study> studies = read_studies(files);
+  prepare_folder(options.out);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  const RunResult result = run_studies(studies, options, stop);
+  int status = done;
+  for (const StudyResult& study : result.studies) {
+    for (const SeriesResult& series : study.series) {
+      print_row(series.as_expected(), study.study->name, series.series->label(study.study->scene->standing()), series.judgement,
+                series.series->expected, series.judgement.reason);
+      if (series.as_expected()) continue;
+      status = std::max<int>(status, series.judgement.verdict == Verdict::unstable ? numerical_failure : departs);
+    }
+  }
+  fmt::print("{} cases computed, {} taken from the store; results in {}\n", result.computed, result.reused, options.out.string());
+  if (result.interrupted) {
+    fmt::print(stderr, "acstudy: interrupted; finished cases are stored, and the same command goes on from them\n");
+    return interrupted;
+  }
+  return status;
+}
+
+int check(const std::vector<std::string>& files) {
+  std::vector<CheckedSeries> all;
+  for (const std::string& file : files) {
+    for (CheckedSeries& series : check_file(file)) all.push_back(std::move(series));
+  }
+  std::size_t departing = 0;
+  for (const CheckedSeries& series : all) {
+    print_row(series.passes(), series.study, series.label, series.judgement, series.expected, series.remark());
+    departing += series.passes() ? 0 : 1;
+  }
+  fmt::print("{} series, {} as expected, {} departing\n", all.size(), all.size() - departing, departing);
+  return departing == 0 ? done : departs;
+}
+
+int list(const std::string& what) {
+  const auto heading = [&](const char* title) {
+    if (what.empty()) fmt::print("{}:\n", title);
+  };
+  const char* indent = what.empty() ? "  " : "";
+  if (what.empty() || what == "schemes") {
+    heading("schemes");
+    fmt::print("{0}model = 1, divergence = \"local\"     Model I, scheme 1 (2.9); (2.4) where particles stand still\n"
+               "{0}model = 1, divergence = \"nonlocal\"  Model I, scheme 2 (2.11)\n"
+               "{0}model = 2, divergence = \"local\"     Model II, scheme 1 (3.8); (3.6) where particles stand still\n"
+               "{0}model = 2, divergence = \"nonlocal\"  Model II, scheme 2 (3.10)\n", indent);
+  }
+  if (what.empty() || what == "kernels") {
+    heading("kernels");
+    fmt::print("{0}\"inverse\"                           Model I: eta(s) = 1/(delta s)\n"
+               "{0}{{ name = \"power\", alpha = A }}       eta(s) ~ s^-A; Model I: A < 2, Model II: A < 1\n"
+               "{0}\"cubic-spline\"                      Model II; Model I: its upwind half, doubled\n", indent);
+  }
+  if (what.empty() || what == "integrators") {
+    heading("integrators");
+    for (const Integrator& integrator : integrators) {
+      fmt::print("{}{:<35} order {}, {} stage(s)\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order, integrator.stages.size());
+    }
+  }
+  if (what.empty() || what == "scenes") {
+    heading("scenes");
+    for (const SceneText& scene : named_scenes()) {
+      fmt::print("{}{:<35} period {}, T = {}, c = {}, b = {}, u = {}\n", indent, fmt::format("\"{}\"", scene.name), scene.period, scene.T, scene.c,
+                 scene.b.value_or("0"), scene.u);
+    }
+  }
+  return done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Verification and convergence studies of asymptotically compatible particle schemes for linear advection.");
+  app.set_version_flag("--version", fmt::format("acstudy {}", build_info::version));
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done and all as expected, 1 a verdict departs, 2 bad input (nothing run or written),\n"
+             "3 a run failed numerically, 4 the machine failed it, 130 interrupted.");
+
+  std::vector<std::string> files;
+  RunOptions options;
+  options.jobs = available_processors();
+  std::string out = options.out.string(), what;
+
+  CLI::App* const run_command = app.add_subcommand("run", "Run every case of the studies that is not stored yet");
+  run_command->add_option("STUDY.toml", files, "study files")->required();
+  run_command->add_option("--out", out, "folder for DIR/<study>.h5 and .json")->type_name("DIR")->capture_default_str();
+  run_command->add_option("--jobs", options.jobs, "cases run at the same time; numbers do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  run_command->add_flag("--fresh", options.fresh, "run stored cases again");
+
+  CLI::App* const check_command = app.add_subcommand("check", "The gate: judge result files; exit 1 if a verdict departs");
+  check_command->add_option("FILE.json", files, "result files")->required();
+
+  CLI::App* const explain_command = app.add_subcommand("explain", "Print what a study computes and what it leaves out; computes nothing");
+  explain_command->add_option("STUDY.toml", files, "study files")->required();
+
+  CLI::App* const list_command = app.add_subcommand("list", "Print what can be named in a study");
+  list_command->add_option("WHAT", what, "schemes, kernels, integrators or scenes; everything by default")
+      ->check(CLI::IsMember({"schemes", "kernels", "integrators", "scenes"}));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "acstudy: {}; see acstudy --help\n", error.what());
+    return bad_input;
+  }
+
+  try {
+    if (*run_command) {
+      options.out = out;
+      for (int i = 0; i < argc; ++i) options.command += (i > 0 ? " " : "") + std::string(argv[i]);
+      return run(files, options);
+    }
+    if (*check_command) return check(files);
+    if (*list_command) return list(what);
+    for (const Study& study : read_studies(files)) fmt::print("{}", explain(study));
+    return done;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "acstudy: {}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "acstudy: {}\n", error.what());
+    return machine_failure;
+  }
+}

@@ -1,0 +1,82 @@
+#include "studies/run_case.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <new>
+
+#include "solver/model1.hpp"
+#include "solver/model2.hpp"
+#include "studies/advance.hpp"
+
+namespace acstudy {
+
+namespace {
+
+std::unique_ptr<Source> make_source(const Case& c, KernelProfile kernel) {
+  if (!c.nonlocal_source) return local_source(*c.scene);
+  return nonlocal_source(*c.scene, {c.scheme.model, c.scheme.nonlocal_divergence, std::move(kernel), c.delta, c.mu}, c.source_rule);
+}
+
+template <class Motion, class Divergence, class K>
+CaseResult run_scheme(const Case& c, const K& kernel, const std::atomic<bool>& stop) {
+  const auto source = make_source(c, profile(kernel));
+  if constexpr (IntegrableKernel<K>) {
+    if (c.scheme.model == 2) return advance<Motion>(c, ModelII<K, Divergence>(kernel, c.mu), *source, stop);
+  }
+  return advance<Motion>(c, ModelI<K, Divergence>(kernel), *source, stop);
+}
+
+template <class K>
+CaseResult run_kernel(const Case& c, const K& kernel, const std::atomic<bool>& stop) {
+  if (c.scene->standing()) return run_scheme<StandingParticles, NoDivergence>(c, kernel, stop);
+  if (c.scheme.nonlocal_divergence) return run_scheme<MovingParticles, NonlocalDivergence>(c, kernel, stop);
+  return run_scheme<MovingParticles, LocalDivergence>(c, kernel, stop);
+}
+
+CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
+  const KernelChoice& kernel = c.scheme.kernel;
+  if (kernel.name == "inverse") return run_kernel(c, InverseKernel{}, stop);
+  if (kernel.name == "cubic-spline") return run_kernel(c, CubicSplineKernel{}, stop);
+  if (c.scheme.model == 2) return run_kernel(c, IntegrablePowerKernel(kernel.alpha), stop);
+  return run_kernel(c, PowerKernel(kernel.alpha), stop);
+}
+
+}  // namespace
+
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop) {
+  constexpr std::size_t most_repeats = 5;
+  constexpr double enough_seconds = 0.5;
+
+  std::vector<double> seconds, source_seconds;
+  CaseResult result;
+  double total = 0.0;
+  do {
+    try {
+      result = run_once(c, stop);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      result.failure = error.what();
+      result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
+      result.completed = true;
+    }
+    if (!result.completed) return result;
+    seconds.push_back(result.seconds);
+    source_seconds.push_back(result.source_seconds);
+    total += result.seconds;
+  } while (seconds.size() < most_repeats && total < enough_seconds && result.failure.empty());
+
+  const auto median = [](std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+  };
+  result.repeats = static_cast<std::int64_t>(seconds.size());
+  result.seconds = median(seconds);
+  result.source_seconds = median(source_seconds);
+  result.seconds_low = *std::min_element(seconds.begin(), seconds.end());
+  result.seconds_high = *std::max_element(seconds.begin(), seconds.end());
+  return result;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,139 @@
+#include "studies/runner.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <unordered_map>
+
+namespace acstudy {
+
+namespace {
+
+/// One distinct case and every place in the studies that wants its result.
+struct Job {
+  const Case* c;
+  struct Place {
+    std::size_t study, series, level;
+  };
+  std::vector<Place> wanted_by;
+};
+
+/// A line on the terminal that is rewritten; silent where stderr is none.
+class Progress {
+ public:
+  Progress(std::size_t jobs, double work) : jobs_(jobs), work_(work), on_terminal_(isatty(STDERR_FILENO) != 0) {}
+  ~Progress() {
+    if (on_terminal_ && shown_) fmt::print(stderr, "\r\033[K");
+  }
+
+  void done(double work) {
+    ++finished_;
+    finished_work_ += work;
+    if (!on_terminal_) return;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double left = finished_work_ > 0.0 ? elapsed * (work_ - finished_work_) / finished_work_ : 0.0;
+    fmt::print(stderr, "\r\033[K{} of {} cases, {:.0f} s, about {:.0f} s left", finished_, jobs_, elapsed, std::ceil(left));
+    std::fflush(stderr);
+    shown_ = true;
+  }
+
+ private:
+  std::size_t jobs_, finished_ = 0;
+  double work_, finished_work_ = 0.0;
+  bool on_terminal_, shown_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop) {
+  RunResult run;
+  std::vector<Job> jobs;
+  std::unordered_map<std::string, std::size_t> job_of;
+  std::vector<std::size_t> open_cases;
+  std::vector<Provenance> provenance;
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    const Study& study = studies[s];
+    StoredCases stored = options.fresh ? StoredCases{} : load_cases(options.out / (study.name + ".h5"));
+    run.studies.push_back({&study, {}});
+    open_cases.push_back(0);
+    for (const Series& series : study.series) {
+      auto& results = run.studies.back().series.emplace_back(SeriesResult{&series, {}, {}}).results;
+      results.resize(series.cases.size());
+      for (std::size_t i = 0; i < series.cases.size(); ++i) {
+        const std::string key = storage_key(series.cases[i]);
+        if (const auto found = stored.cases.find(key); found != stored.cases.end()) {
+          results[i] = found->second;
+          ++run.reused;
+          continue;
+        }
+        const auto [entry, is_new] = job_of.try_emplace(key, jobs.size());
+        if (is_new) jobs.push_back({&series.cases[i], {}});
+        jobs[entry->second].wanted_by.push_back({s, run.studies.back().series.size() - 1, i});
+        ++open_cases[s];
+      }
+    }
+    // A study of which nothing is computed keeps the origin of its numbers.
+    provenance.push_back(open_cases[s] == 0 ? stored.provenance : collect_provenance(options.jobs, options.command));
+  }
+  std::stable_sort(jobs.begin(), jobs.end(),
+                   [](const Job& a, const Job& b) { return a.c->estimated_work() > b.c->estimated_work(); });
+
+  const auto finish = [&](std::size_t s) {
+    for (SeriesResult& series : run.studies[s].series) series.judgement = judge_series(*series.series, series.results);
+    write_results(options.out, studies[s], run.studies[s].series, provenance[s]);
+  };
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    if (open_cases[s] == 0) finish(s);
+  }
+
+  double work = 0.0;
+  for (const Job& job : jobs) work += job.c->estimated_work();
+  Progress progress(jobs.size(), work);
+  std::mutex mutex;
+  std::size_t next = 0;
+  std::exception_ptr failure;
+  const auto worker = [&] {
+    for (;;) {
+      const Job* job = nullptr;
+      {
+        const std::lock_guard lock(mutex);
+        if (next == jobs.size() || stop || failure) return;
+        job = &jobs[next++];
+      }
+      try {
+        const CaseResult result = run_case(*job->c, stop);
+        const std::lock_guard lock(mutex);
+        if (!result.completed) return;
+        ++run.computed;
+        progress.done(job->c->estimated_work());
+        for (const auto& place : job->wanted_by) {
+          run.studies[place.study].series[place.series].results[place.level] = result;
+          if (--open_cases[place.study] == 0) finish(place.study);
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failure = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int t = 1; t < options.jobs; ++t) threads.emplace_back(worker);
+  worker();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+
+  run.interrupted = stop;
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    if (open_cases[s] > 0) finish(s);
+  }
+  return run;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,42 @@
+#pragma once
+
+/// @file
+/// Runs the cases of studies in parallel and stores what comes out.
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studies/store.hpp"
+#include "studies/study.hpp"
+
+namespace acstudy {
+
+struct RunOptions {
+  std::filesystem::path out = "reports/out";
+  int jobs = 0;        ///< 0: as many as the machine has processors for this process
+  bool fresh = false;  ///< run stored cases again
+  std::string command;
+};
+
+struct StudyResult {
+  const Study* study;
+  std::vector<SeriesResult> series;
+};
+
+struct RunResult {
+  std::vector<StudyResult> studies;
+  std::size_t computed = 0, reused = 0;
+  bool interrupted = false;
+};
+
+/// Runs every case that is not stored yet, each once even if several studies ask for it, longest first; writes the results
+/// of a study as soon as it is complete, and those of incomplete ones when interrupted.
+///
+/// A case runs in one thread, so its numbers do not depend on `jobs`.
+/// @param stop  once true, running cases end at their next time step
+/// @throws StoreError
+RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop);
+
+}  // namespace acstudy

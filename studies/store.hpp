@@ -1,0 +1,54 @@
+#pragma once
+
+/// @file
+/// Result files: one HDF5 file per study with everything, a JSON file beside it without the fields.
+
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "studies/provenance.hpp"
+#include "studies/run_case.hpp"
+#include "studies/study.hpp"
+
+namespace acstudy {
+
+/// The machine failed the store: disk full, unreadable file, no permission.
+class StoreError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A series with its results, `results[i]` being that of `series.cases[i]`, and the judgement on them.
+struct SeriesResult {
+  const Series* series;
+  std::vector<CaseResult> results;
+  Judgement judgement;
+  bool as_expected() const { return meets(judgement.verdict, series->expected); }
+};
+
+/// Judges a series on its completed cases.
+Judgement judge_series(const Series& series, const std::vector<CaseResult>& results);
+
+/// What a study's HDF5 file holds: case results by storage key (see `storage_key`), and where they come from.
+struct StoredCases {
+  std::map<std::string, CaseResult> cases;
+  Provenance provenance;
+};
+
+/// Under which a result may be used again: all inputs of the case and the fingerprint of the code that computes it.
+std::string storage_key(const Case& c);
+
+/// The content of a study's HDF5 file; empty if there is no such file.
+/// @throws StoreError if the file is there but cannot be read as a store
+StoredCases load_cases(const std::filesystem::path& file);
+
+/// Writes `<out>/<study>.h5` and `<out>/<study>.json`, each whole or not at all (temporary file, then rename). Cases that
+/// were not completed are left out of both.
+/// @throws StoreError
+void write_results(const std::filesystem::path& out, const Study& study, const std::vector<SeriesResult>& series,
+                   const Provenance& provenance);
+
+}  // namespace acstudy

@@ -1,0 +1,16 @@
+#pragma once
+
+/// @file
+/// Which theorem of the paper speaks about a series, and what it promises.
+
+#include "studies/study.hpp"
+
+namespace acstudy {
+
+/// Theory for a scheme along a path.
+///
+/// @param fixed_horizon  delta is the same at every level of the path
+/// @param below_spacing  delta < h at the finest level
+Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon, bool below_spacing);
+
+}  // namespace acstudy

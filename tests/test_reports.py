@@ -1,0 +1,284 @@
+"""The report on small synthetic result files: it shows everything, hides nothing, and stops cleanly at bad input."""
+
+import contextlib
+import io
+import math
+from pathlib import Path
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from xml.etree import ElementTree
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "reports"))
+
+import axes
+import figures
+import names
+import page
+import report
+import results
+import svg
+
+
+def series(**changes):
+    """A confirmed first-order series of format acstudy-1 as {name: value}; arrays are data sets, others attributes."""
+    N = np.array(changes.pop("N", (160, 320, 640, 1280)))
+    h = 2 * math.pi / N
+    error = np.array(changes.pop("error_linf", 1.3 * h))
+    ones = np.ones(len(N), dtype=np.int64)
+    with np.errstate(all="ignore"):
+        pairwise = np.log(error[:-1] / error[1:]) / np.log(h[:-1] / h[1:])
+    values = dict(
+        model=1, divergence="local", kernel="inverse", path="delta = 4h", source="local", delta_text="4*h",
+        step_text="h/4", integrator="forward-euler", motion="moving", theory_variable="max(h,delta)", theory_order=1.0,
+        theory_statement="Theorem 2.7 (2)", observed_order=0.97, observed_low=0.95, observed_high=1.01,
+        extrapolated_order=math.nan, verdict="confirmed", expected="confirmed", as_expected=1,
+        reason="theory's order lies in the interval",
+        N=N, h=h, delta=4 * h, dt=h / 4, steps=4 * N, variable=4 * h, error_linf=error, error_l1=error / 3,
+        error_l2=error / 2, seconds=1e-5 * N, seconds_low=0.9e-5 * N, seconds_high=1.2e-5 * N, repeats=5 * ones,
+        source_seconds=1e-6 * N, work_pairs=1000 * N, work_weight_builds=N, work_quadrature_points=0 * N,
+        work_velocity_evaluations=N, pairwise=pairwise)
+    return values | changes
+
+
+def write(folder, name, *all_series, title="A study", fixed_length=False, **root):
+    """A result file <name>.h5 of the series; `fixed_length`: text attributes as numpy bytes, as C++ may write them."""
+    path = Path(folder) / f"{name}.h5"
+    text = np.bytes_ if fixed_length else str
+    with h5py.File(path, "w") as file:
+        attributes = dict(format="acstudy-1", study=name, title=title, study_text=f'[study]\nname = "{name}"\n') | root
+        for key, value in attributes.items():
+            file.attrs[key] = text(value)
+        file.create_group("provenance").attrs.update(version="0.1.0", created="2025-01-01T00:00:00Z")
+        file.create_group("scene").attrs.update(name="lee-du-2019", period=2 * math.pi, T=1.0, c="cos(2*x)/3",
+                                                u="cos(x-t)", b="sin(x)")
+        for i, values in enumerate(all_series):
+            group = file.create_group(f"series/{i:03d}")
+            for key, value in values.items():
+                if isinstance(value, np.ndarray):
+                    group[key] = value
+                else:
+                    group.attrs[key] = text(value) if isinstance(value, str) else value
+    return path
+
+
+class ReportTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def run_report(self, *arguments):
+        """(exit code, stdout, stderr) of the program."""
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), warnings.catch_warnings():
+            # unittest turns on the warnings that matplotlib's parser gives to its own developers.
+            warnings.simplefilter("ignore")
+            try:
+                code = report.main([str(argument) for argument in arguments])
+            except SystemExit as stop:
+                code = stop.code
+        return code, out.getvalue(), err.getvalue()
+
+    def images(self, study):
+        return figures.render(figures.error_figure(study, figures.scheme_styles([study])), study.title)
+
+
+class Reading(ReportTest):
+    def test_both_kinds_of_hdf5_text_are_read(self):
+        for fixed_length in (False, True):
+            path = write(self.folder, "fig1", series(mu=math.nan), title="Größe δ" if not fixed_length else "plain",
+                         fixed_length=fixed_length)
+            study = results.read_study(path)
+            self.assertEqual(study.name, "fig1")
+            self.assertEqual(study.series[0].verdict, "confirmed")
+            self.assertIsNone(study.series[0].scheme.mu)
+            self.assertEqual(study.scene.flow, "")
+            self.assertEqual(list(study.series[0].cases.N), [160, 320, 640, 1280])
+
+    def test_a_file_that_is_no_result_stops_with_4_and_one_line(self):
+        incomplete, ragged = series(), series(h=np.ones(3))
+        del incomplete["verdict"]
+        (self.folder / "junk.h5").write_text("not HDF5")
+        with h5py.File(self.folder / "other.h5", "w") as file:
+            file.attrs["format"] = "something else"
+        write(self.folder, "incomplete", incomplete)
+        write(self.folder, "ragged", ragged)
+        write(self.folder, "outside", series(), study="../../outside")
+        for name, said in (("junk", "not a readable HDF5 file"), ("other", 'format = "something else"'),
+                           ("incomplete", "no attribute verdict"), ("ragged", "shape (3,)"),
+                           ("outside", 'study = "../../outside"')):
+            with self.subTest(name):
+                code, out, err = self.run_report(self.folder, self.folder / f"{name}.h5")
+                self.assertEqual((code, out, err.count("\n")), (4, "", 1), err)
+                self.assertIn(said, err)
+                self.assertIn(f"{name}.h5", err)
+        self.assertEqual([file for file in self.folder.iterdir() if file.suffix != ".h5"], [])
+
+    def test_bad_usage_stops_with_2_and_one_line(self):
+        cost = write(self.folder, "cost", series())
+        twin = self.folder / "twin.h5"
+        empty = self.folder / "empty"
+        empty.mkdir()
+        twin.write_bytes(write(self.folder, "fig1", series()).read_bytes())
+        for arguments in ([self.folder / "missing"], [empty], [empty, empty / "missing.h5"], [empty, cost],
+                          [empty, twin, self.folder / "fig1.h5"]):
+            with self.subTest(arguments):
+                code, out, err = self.run_report(*arguments)
+                self.assertEqual((code, out, err.count("\n")), (2, "", 1), err)
+        self.assertEqual(self.run_report("--no-such-option")[0], 2)
+
+
+class Page(ReportTest):
+    def test_every_series_and_verdict_is_shown_and_escaped(self):
+        verdicts = ("confirmed", "pre-asymptotic", "below", "above", "stagnates", "floor", "diverges", "unstable",
+                    "inconclusive")
+        all_series = [series(path=f"delta = {i + 2}h", verdict=verdict, expected=verdict, reason=f"reason <{verdict}>")
+                      for i, verdict in enumerate(verdicts)]
+        write(self.folder, "fig1", *all_series, title="<script>alert(1)</script> & $x$",
+              study_text='title = "<b>"')
+        code, out, err = self.run_report(self.folder)
+        self.assertEqual((code, err), (0, ""))
+        self.assertEqual(Path(out.strip()), self.folder / "index.html")
+        html = (self.folder / "index.html").read_text(encoding="utf-8")
+        for one in all_series:
+            self.assertIn(f'>{one["verdict"]}</span>', html)
+            self.assertIn(f'reason &lt;{one["verdict"]}&gt;', html)
+            self.assertEqual(html.count(f'<td>{one["path"]}</td>'), 1)
+        self.assertIn("&lt;script&gt;alert(1)&lt;/script&gt; &amp; $x$", html)
+        self.assertIn("title = &quot;&lt;b&gt;&quot;", html)
+        self.assertNotIn("<script", html)
+        for name in ("fig1.svg", "fig1.png", "cost.svg", "cost.png"):
+            self.assertTrue((self.folder / name).is_file())
+            self.assertIn(f'"{name}"', html)
+        self.assertEqual([file.name for file in self.folder.iterdir() if file.name.startswith(".")], [])
+
+    def test_a_departing_series_is_marked(self):
+        departing = series(path="delta = h^2", verdict="below", as_expected=0, observed_order=0.5)
+        control = series(path="delta = 0.2", verdict="stagnates", expected="stagnates")
+        study = results.read_study(write(self.folder, "fig1", series(), departing, control))
+        html = page.html([study], [], cost=False)
+        self.assertIn("1 of 3 series not as expected", html)
+        self.assertEqual(html.count('<tr class="departs">'), 1)
+        self.assertEqual(html.count('<article class="departs">'), 1)
+        self.assertIn("<strong>no</strong>, expected confirmed", html)
+        self.assertIn('<span class="badge bad">below</span>', html)
+        self.assertIn('<span class="badge control">stagnates</span>', html)
+        self.assertIn("below, expected confirmed", self.images(study)["svg"].decode())
+
+    def test_numbers_and_what_is_not_a_number(self):
+        broken = series(error_linf=[0.0512, math.nan, math.inf, 0.00321], observed_order=math.nan,
+                        observed_low=math.nan, observed_high=math.nan, verdict="unstable", expected="unstable",
+                        work_pairs=np.array([1, 1000, 1234567, 10**12]))
+        html = page.html([results.read_study(write(self.folder, "fig1", broken))], ["fig1"], cost=False)
+        for text in ("5.120e-02", ">nan<", ">inf<", "1\u202f234\u202f567", "[–, –]", "Δ<var>t</var>"):
+            self.assertIn(text, html)
+
+    def test_program_runs_from_the_root_of_the_project(self):
+        write(self.folder, "fig1", series())
+        done = subprocess.run([sys.executable, "reports/report.py", str(self.folder)], cwd=ROOT, text=True,
+                              capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout, f"{self.folder / 'index.html'}\n")
+
+
+class Figures(ReportTest):
+    def test_the_same_file_gives_the_same_bytes(self):
+        path = write(self.folder, "fig1", series(), series(divergence="nonlocal"), series(path="delta = sqrt(h)"))
+        first, second = (self.images(results.read_study(path)) for _ in range(2))
+        self.assertEqual(first, second)
+        self.assertNotIn("<dc:date>", first["svg"].decode())
+
+    def test_levels_that_cannot_be_drawn_are_counted_in_the_legend(self):
+        mixed = series(error_linf=[0.05, math.nan, math.inf, 0.006])
+        lost = series(divergence="nonlocal", error_linf=[math.nan] * 4, seconds=np.zeros(4))
+        zero = series(path="delta = h^2", error_linf=[0.1, 0.01, 0.001, 0.0])
+        short = series(path="delta = h^3", N=(160,))
+        none = series(path="delta = h^4", N=())
+        study = results.read_study(write(self.folder, "fig1", mixed, lost, zero, short, none))
+        text = self.images(study)["svg"].decode()
+        for note in ("2 of 4 levels not finite", "4 of 4 levels not finite", "1 of 4 levels zero"):
+            self.assertIn(note, text)
+        self.assertIsNotNone(figures.cost_figure([study], figures.scheme_styles([study])))
+        alone = results.read_study(write(self.folder, "fig2", lost))
+        self.assertIn("4 of 4 levels not finite", self.images(alone)["svg"].decode())
+        self.assertIn("nan", page.html([study], ["fig1"], cost=True))
+
+    def test_a_study_without_series_has_no_figure(self):
+        study = results.read_study(write(self.folder, "fig1"))
+        self.assertIsNone(figures.error_figure(study, {}))
+        self.assertIsNone(figures.cost_figure([study], {}))
+        self.assertIn("No series has been run", page.html([study], [], cost=False))
+
+    def test_series_run_by_several_studies_are_drawn_once(self):
+        studies = [results.read_study(path) for path in (
+            write(self.folder, "fig2", series(), series(divergence="nonlocal", N=(160, 320))),
+            write(self.folder, "fig5", series(), series(divergence="nonlocal"), series(step_text="h/8")))]
+        chosen = figures.cost_curves(studies)
+        self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
+                         [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
+        text = figures.render(figures.cost_figure(studies, figures.scheme_styles(studies)), "cost")["svg"].decode()
+        for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
+                     "Model I, nonlocal divergence"):
+            self.assertEqual(text.count(f">{name}<"), 1, name)
+
+    def test_schemes_keep_their_looks_and_no_two_share_one(self):
+        schemes = [series(model=model, divergence=divergence, kernel=kernel, mu=1.5 if model == 2 else math.nan)
+                   for model, kernel in ((1, "inverse"), (2, "cubic-spline"), (1, "cubic-spline"), (1, "power"))
+                   for divergence in ("local", "nonlocal")]
+        study = results.read_study(write(self.folder, "fig1", *schemes))
+        styles = figures.scheme_styles([study])
+        self.assertEqual(len({(style.color, style.marker, style.filled) for style in styles.values()}), 8)
+        self.assertTrue(all(style.filled == (scheme.divergence == "local") for scheme, style in styles.items()))
+        self.assertIn("Model I, power kernel, local divergence",
+                      names.scheme_names(styles).values())
+
+    def test_reference_lines_stay_below_every_curve_and_each_other(self):
+        h = 2 * math.pi / np.array([160, 320, 640, 1280])
+        for errors in (h, h**0.5, 1e-3 + 0 * h, 1 / h, h**4, np.array([0.1, 0.01, 0.02, 0.001])):
+            (low, high), (lines,) = axes.error_bounds([([(h, errors, None)], [1.0, 2.0])], (2.6, 2.6))
+            self.assertEqual([line.order for line in lines], [1.0, 2.0])
+            for line in lines:
+                drawn = h[h >= line.start]
+                self.assertTrue(np.all(line(drawn) < np.interp(drawn, h[::-1], errors[::-1])))
+                self.assertGreater(line(line.start), low)
+            self.assertLess(lines[1](lines[1].end), lines[0](lines[0].end))
+            self.assertGreater(high, errors.max())
+
+    def test_ticks_never_crowd_and_never_lack(self):
+        for low, high in ((1e-16, 10), (0.002, 0.02), (0.05, 0.14), (0.1, 0.11), (3e-6, 5e-6), (0.99999, 1.00001)):
+            with self.subTest((low, high)):
+                ticks = axes._ticks(low, high, 5)
+                self.assertTrue(2 <= len(ticks) <= 5, ticks)
+                self.assertTrue(all(low <= tick <= high for tick in ticks))
+                self.assertEqual(len({axes._tick_text(tick, ticks) for tick in ticks}), len(ticks))
+
+    def test_paths_are_set_as_formulas_where_they_are_some(self):
+        for path, written in (("delta = 4h", r"$\delta=4h$"), ("delta = sqrt(h)", r"$\delta=\sqrt{h}$"),
+                              ("delta = 2*h^0.5", r"$\delta=2h^{0.5}$"), ("fixed horizon", "fixed horizon"),
+                              ("costs $5", r"costs \$5"), ("a_b^", "a_b^")):
+            self.assertEqual(names.path_math(path), written)
+
+    def test_formulas_in_an_svg_read_from_left_to_right(self):
+        text = svg.readable("""<text><tspan style="font: 12px 'STIXGeneral'" x="0 9 15 21 31 42" y="-1">max(,)</tspan>
+            <tspan style="font: italic 12px 'STIXGeneral'" x="25 37" y="-1">hδ</tspan></text>""")
+        self.assertEqual("".join(part.split("<")[0] for part in text.split(">")), "max(h,δ)")
+        self.assertIn("STIXGeneral, 'STIX Two Text'", text)
+
+    def test_a_figure_brings_its_fonts_along_and_keeps_its_text(self):
+        study = results.read_study(write(self.folder, "fig1", series()))
+        text = self.images(study)["svg"].decode()
+        ElementTree.fromstring(text)
+        self.assertEqual(text.count("@font-face{font-family:STIXGeneral"), 2)
+        self.assertIn(">order 0.97 [0.95, 1.01], theory 1<", text)
+        self.assertIn(">order 1<", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -84,18 +84,29 @@ std::string explain(const mu::ParserError& error, const std::vector<std::string>
       for (const auto& name : variables) names += (names.empty() ? "" : ", ") + name;
       return "unknown name \"" + token + "\"; it may use " + names + ", pi, e and the usual functions";
     }
-    case mu::ecUNEXPECTED_EOF: return "the expression ends too early";
-    case mu::ecMISSING_PARENS: return "a closing parenthesis is missing";
-    case mu::ecUNEXPECTED_PARENS: return "unexpected parenthesis \"" + token + "\"";
-    case mu::ecUNEXPECTED_OPERATOR: return "unexpected operator \"" + token + "\"";
+    case mu::ecUNEXPECTED_EOF:
+      return "the expression ends too early";
+    case mu::ecMISSING_PARENS:
+      return "a closing parenthesis is missing";
+    case mu::ecUNEXPECTED_PARENS:
+      return "unexpected parenthesis \"" + token + "\"";
+    case mu::ecUNEXPECTED_OPERATOR:
+      return "unexpected operator \"" + token + "\"";
     case mu::ecUNEXPECTED_VAL:
-    case mu::ecUNEXPECTED_VAR: return "unexpected value \"" + token + "\"; an operator is missing before it";
-    case mu::ecUNEXPECTED_FUN: return "unexpected function \"" + token + "\"; an operator is missing before it";
-    case mu::ecUNEXPECTED_ARG_SEP: return "unexpected comma";
-    case mu::ecTOO_MANY_PARAMS: return "too many arguments for \"" + token + "\"";
-    case mu::ecTOO_FEW_PARAMS: return "too few arguments for \"" + token + "\"";
-    case mu::ecEMPTY_EXPRESSION: return "the expression is empty";
-    default: return "syntax error near \"" + token + "\"";
+    case mu::ecUNEXPECTED_VAR:
+      return "unexpected value \"" + token + "\"; an operator is missing before it";
+    case mu::ecUNEXPECTED_FUN:
+      return "unexpected function \"" + token + "\"; an operator is missing before it";
+    case mu::ecUNEXPECTED_ARG_SEP:
+      return "unexpected comma";
+    case mu::ecTOO_MANY_PARAMS:
+      return "too many arguments for \"" + token + "\"";
+    case mu::ecTOO_FEW_PARAMS:
+      return "too few arguments for \"" + token + "\"";
+    case mu::ecEMPTY_EXPRESSION:
+      return "the expression is empty";
+    default:
+      return "syntax error near \"" + token + "\"";
   }
 }
 
@@ -114,7 +125,8 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
     throw ExpressionError(at, std::string("unexpected \"") + text[at] + "\"; an expression has no conditions");
   }
   recording = &tape_;
-  for (std::size_t i = 0; i < variables.size(); ++i) tape_.push_back({.op = Op::variable, .a = int(i), .depends = 1U << i});
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    tape_.push_back({.op = Op::variable, .a = int(i), .depends = 1U << i});
   try {
     mu::Parser parser;
     parser.EnableBuiltInOprt(false);
@@ -166,36 +178,60 @@ ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<Bloc
   };
   switch (node.op) {
     case Op::constant:
-    case Op::variable: break;
-    case Op::add: return each([&](auto i) { return a[i] + b[i]; });
-    case Op::subtract: return each([&](auto i) { return a[i] - b[i]; });
-    case Op::multiply: return each([&](auto i) { return a[i] * b[i]; });
-    case Op::divide: return each([&](auto i) { return a[i] / b[i]; });
-    case Op::power: return each([&](auto i) { return b[i] == 2.0 ? a[i] * a[i] : std::pow(a[i], b[i]); });
-    case Op::negate: return each([&](auto i) { return -a[i]; });
-    case Op::sin: return each([&](auto i) { return std::sin(a[i]); });
-    case Op::cos: return each([&](auto i) { return std::cos(a[i]); });
-    case Op::tan: return each([&](auto i) { return std::tan(a[i]); });
-    case Op::asin: return each([&](auto i) { return std::asin(a[i]); });
-    case Op::acos: return each([&](auto i) { return std::acos(a[i]); });
-    case Op::atan: return each([&](auto i) { return std::atan(a[i]); });
-    case Op::sinh: return each([&](auto i) { return std::sinh(a[i]); });
-    case Op::cosh: return each([&](auto i) { return std::cosh(a[i]); });
-    case Op::tanh: return each([&](auto i) { return std::tanh(a[i]); });
-    case Op::exp: return each([&](auto i) { return std::exp(a[i]); });
-    case Op::log: return each([&](auto i) { return std::log(a[i]); });
-    case Op::sqrt: return each([&](auto i) { return std::sqrt(a[i]); });
-    case Op::abs: return each([&](auto i) { return std::abs(a[i]); });
-    case Op::atan2: return each([&](auto i) { return std::atan2(a[i], b[i]); });
-    case Op::min: return each([&](auto i) { return std::min(a[i], b[i]); });
-    case Op::max: return each([&](auto i) { return std::max(a[i], b[i]); });
+    case Op::variable:
+      break;
+    case Op::add:
+      return each([&](auto i) { return a[i] + b[i]; });
+    case Op::subtract:
+      return each([&](auto i) { return a[i] - b[i]; });
+    case Op::multiply:
+      return each([&](auto i) { return a[i] * b[i]; });
+    case Op::divide:
+      return each([&](auto i) { return a[i] / b[i]; });
+    case Op::power:
+      return each([&](auto i) { return b[i] == 2.0 ? a[i] * a[i] : std::pow(a[i], b[i]); });
+    case Op::negate:
+      return each([&](auto i) { return -a[i]; });
+    case Op::sin:
+      return each([&](auto i) { return std::sin(a[i]); });
+    case Op::cos:
+      return each([&](auto i) { return std::cos(a[i]); });
+    case Op::tan:
+      return each([&](auto i) { return std::tan(a[i]); });
+    case Op::asin:
+      return each([&](auto i) { return std::asin(a[i]); });
+    case Op::acos:
+      return each([&](auto i) { return std::acos(a[i]); });
+    case Op::atan:
+      return each([&](auto i) { return std::atan(a[i]); });
+    case Op::sinh:
+      return each([&](auto i) { return std::sinh(a[i]); });
+    case Op::cosh:
+      return each([&](auto i) { return std::cosh(a[i]); });
+    case Op::tanh:
+      return each([&](auto i) { return std::tanh(a[i]); });
+    case Op::exp:
+      return each([&](auto i) { return std::exp(a[i]); });
+    case Op::log:
+      return each([&](auto i) { return std::log(a[i]); });
+    case Op::sqrt:
+      return each([&](auto i) { return std::sqrt(a[i]); });
+    case Op::abs:
+      return each([&](auto i) { return std::abs(a[i]); });
+    case Op::atan2:
+      return each([&](auto i) { return std::atan2(a[i], b[i]); });
+    case Op::min:
+      return each([&](auto i) { return std::min(a[i], b[i]); });
+    case Op::max:
+      return each([&](auto i) { return std::max(a[i], b[i]); });
   }
 }
 
-/// d = derivative of the node, from the derivatives of its operands; the values are already there. A constant operand is
-/// skipped rather than multiplied by zero, so that x^2 at x = 0 never meets log(0).
-ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction, const std::vector<Block>& value,
-                       const std::vector<Block>& derivative, const Block& v, Block& d, std::size_t n) {
+/// d = derivative of the node, from the derivatives of its operands; the values are already there. A constant operand
+/// is skipped rather than multiplied by zero, so that x^2 at x = 0 never meets log(0).
+ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction,
+                                             const std::vector<Block>& value, const std::vector<Block>& derivative,
+                                             const Block& v, Block& d, std::size_t n) {
   const Block &a = value[node.a], &b = value[node.b];
   const Block &da = derivative[node.a], &db = derivative[node.b];
   const bool varies_a = (tape[node.a].depends & direction) != 0, varies_b = (tape[node.b].depends & direction) != 0;
@@ -204,34 +240,55 @@ ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector
   };
   switch (node.op) {
     case Op::constant:
-    case Op::variable: break;
-    case Op::add: return each([&](auto i) { return da[i] + db[i]; });
-    case Op::subtract: return each([&](auto i) { return da[i] - db[i]; });
-    case Op::multiply: return each([&](auto i) { return da[i] * b[i] + a[i] * db[i]; });
-    case Op::divide: return each([&](auto i) { return (da[i] - v[i] * db[i]) / b[i]; });
+    case Op::variable:
+      break;
+    case Op::add:
+      return each([&](auto i) { return da[i] + db[i]; });
+    case Op::subtract:
+      return each([&](auto i) { return da[i] - db[i]; });
+    case Op::multiply:
+      return each([&](auto i) { return da[i] * b[i] + a[i] * db[i]; });
+    case Op::divide:
+      return each([&](auto i) { return (da[i] - v[i] * db[i]) / b[i]; });
     case Op::power:
       return each([&](auto i) {
         const double base = varies_a ? b[i] * (b[i] == 2.0 ? a[i] : std::pow(a[i], b[i] - 1.0)) * da[i] : 0.0;
         return varies_b ? base + v[i] * std::log(a[i]) * db[i] : base;
       });
-    case Op::negate: return each([&](auto i) { return -da[i]; });
-    case Op::sin: return each([&](auto i) { return std::cos(a[i]) * da[i]; });
-    case Op::cos: return each([&](auto i) { return -std::sin(a[i]) * da[i]; });
-    case Op::tan: return each([&](auto i) { return (1.0 + v[i] * v[i]) * da[i]; });
-    case Op::asin: return each([&](auto i) { return da[i] / std::sqrt((1.0 - a[i]) * (1.0 + a[i])); });
-    case Op::acos: return each([&](auto i) { return -da[i] / std::sqrt((1.0 - a[i]) * (1.0 + a[i])); });
-    case Op::atan: return each([&](auto i) { return da[i] / (1.0 + a[i] * a[i]); });
-    case Op::sinh: return each([&](auto i) { return std::cosh(a[i]) * da[i]; });
-    case Op::cosh: return each([&](auto i) { return std::sinh(a[i]) * da[i]; });
-    case Op::tanh: return each([&](auto i) { return (1.0 - v[i] * v[i]) * da[i]; });
-    case Op::exp: return each([&](auto i) { return v[i] * da[i]; });
-    case Op::log: return each([&](auto i) { return da[i] / a[i]; });
-    case Op::sqrt: return each([&](auto i) { return 0.5 * da[i] / v[i]; });
-    case Op::abs: return each([&](auto i) { return a[i] < 0.0 ? -da[i] : da[i]; });
+    case Op::negate:
+      return each([&](auto i) { return -da[i]; });
+    case Op::sin:
+      return each([&](auto i) { return std::cos(a[i]) * da[i]; });
+    case Op::cos:
+      return each([&](auto i) { return -std::sin(a[i]) * da[i]; });
+    case Op::tan:
+      return each([&](auto i) { return (1.0 + v[i] * v[i]) * da[i]; });
+    case Op::asin:
+      return each([&](auto i) { return da[i] / std::sqrt((1.0 - a[i]) * (1.0 + a[i])); });
+    case Op::acos:
+      return each([&](auto i) { return -da[i] / std::sqrt((1.0 - a[i]) * (1.0 + a[i])); });
+    case Op::atan:
+      return each([&](auto i) { return da[i] / (1.0 + a[i] * a[i]); });
+    case Op::sinh:
+      return each([&](auto i) { return std::cosh(a[i]) * da[i]; });
+    case Op::cosh:
+      return each([&](auto i) { return std::sinh(a[i]) * da[i]; });
+    case Op::tanh:
+      return each([&](auto i) { return (1.0 - v[i] * v[i]) * da[i]; });
+    case Op::exp:
+      return each([&](auto i) { return v[i] * da[i]; });
+    case Op::log:
+      return each([&](auto i) { return da[i] / a[i]; });
+    case Op::sqrt:
+      return each([&](auto i) { return 0.5 * da[i] / v[i]; });
+    case Op::abs:
+      return each([&](auto i) { return a[i] < 0.0 ? -da[i] : da[i]; });
     case Op::atan2:
       return each([&](auto i) { return (da[i] * b[i] - a[i] * db[i]) / (a[i] * a[i] + b[i] * b[i]); });
-    case Op::min: return each([&](auto i) { return a[i] <= b[i] ? da[i] : db[i]; });
-    case Op::max: return each([&](auto i) { return a[i] >= b[i] ? da[i] : db[i]; });
+    case Op::min:
+      return each([&](auto i) { return a[i] <= b[i] ? da[i] : db[i]; });
+    case Op::max:
+      return each([&](auto i) { return a[i] >= b[i] ? da[i] : db[i]; });
   }
 }
 

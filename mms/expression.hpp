@@ -41,7 +41,7 @@ class Expression {
 
   /// What to compute of f(x, p) at every x: the value, and where the span is not empty the derivatives.
   struct Request {
-    std::span<double> value;  ///< f
+    std::span<double> value;      ///< f
     std::span<double> by_first;   ///< df/dx, the first variable
     std::span<double> by_second;  ///< df/dp, the second variable
   };
@@ -53,14 +53,36 @@ class Expression {
   static std::vector<std::string> function_names();
 
   enum class Op : unsigned char {
-    constant, variable, add, subtract, multiply, divide, power, negate, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh,
-    exp, log, sqrt, abs, atan2, min, max
+    constant,
+    variable,
+    add,
+    subtract,
+    multiply,
+    divide,
+    power,
+    negate,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    sinh,
+    cosh,
+    tanh,
+    exp,
+    log,
+    sqrt,
+    abs,
+    atan2,
+    min,
+    max
   };
   struct Node {
     Op op;
-    int a = 0, b = 0;        ///< operands, earlier on the tape
-    double constant = 0.0;   ///< value of a constant
-    unsigned depends = 0;    ///< bit i: depends on variable i
+    int a = 0, b = 0;       ///< operands, earlier on the tape
+    double constant = 0.0;  ///< value of a constant
+    unsigned depends = 0;   ///< bit i: depends on variable i
   };
 
  private:

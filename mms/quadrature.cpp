@@ -22,11 +22,13 @@ Rule jacobi_rule(double lower, double upper, double exponent, std::size_t points
 
 /// The n-point Gauss rule of a measure given by many atoms: Stieltjes' recurrence, then Golub and Welsch.
 Rule compress(const Rule& atoms, std::size_t points) {
-  const Eigen::Map<const Eigen::ArrayXd> z(atoms.node.data(), atoms.node.size()), w(atoms.weight.data(), atoms.weight.size());
+  const Eigen::Map<const Eigen::ArrayXd> z(atoms.node.data(), atoms.node.size()),
+      w(atoms.weight.data(), atoms.weight.size());
   const double mass = w.sum();
   const auto n = static_cast<Eigen::Index>(points);
   Eigen::VectorXd diagonal(n), off_diagonal(n - 1);
-  Eigen::ArrayXd previous = Eigen::ArrayXd::Zero(z.size()), p = Eigen::ArrayXd::Constant(z.size(), 1.0 / std::sqrt(mass));
+  Eigen::ArrayXd previous = Eigen::ArrayXd::Zero(z.size()),
+                 p = Eigen::ArrayXd::Constant(z.size(), 1.0 / std::sqrt(mass));
   for (Eigen::Index k = 0; k < n; ++k) {
     diagonal[k] = (w * z * p * p).sum();
     if (k + 1 == n) break;

@@ -29,8 +29,8 @@ KernelProfile profile(K kernel) {
   return {kernel.origin_exponent(), [kernel](double z) { return kernel.regular_part(z); }, kernel.breakpoint()};
 }
 
-/// A rule for int_0^1 f(z) z eta(z) dz, split at the kernel's breakpoints: Gauss-Jacobi on the piece at the origin, which
-/// absorbs its singularity, Gauss-Legendre on the other.
+/// A rule for int_0^1 f(z) z eta(z) dz, split at the kernel's breakpoints: Gauss-Jacobi on the piece at the origin,
+/// which absorbs its singularity, Gauss-Legendre on the other.
 Rule first_moment_rule(const KernelProfile& kernel, std::size_t points_per_piece);
 
 /// The n-point Gauss rule for E(s) = int_s^1 eta(z) dz on (0, 1); its weights sum to one.

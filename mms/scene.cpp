@@ -68,14 +68,16 @@ void Scene::check_periodic(const char* field, const Expression& expression) cons
     double scale = 0.0, gap = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!std::isfinite(here[i])) {
-        throw SceneError(field, 0, fmt::format("{} is {} at x = {:.6g}; it must be finite everywhere", field, here[i], x[i]));
+        throw SceneError(field, 0,
+                         fmt::format("{} is {} at x = {:.6g}; it must be finite everywhere", field, here[i], x[i]));
       }
       scale = std::max(scale, std::abs(here[i]));
       gap = std::max(gap, std::abs(here[i] - there[i]));
     }
     if (!(gap <= 1e-9 * scale)) {
-      throw SceneError(field, 0, fmt::format("{0} is not periodic: {0}(x + {1:.6g}) and {0}(x) differ by {2:.3g}", field,
-                                             period_, gap));
+      throw SceneError(
+          field, 0,
+          fmt::format("{0} is not periodic: {0}(x + {1:.6g}) and {0}(x) differ by {2:.3g}", field, period_, gap));
     }
   }
 }
@@ -89,19 +91,24 @@ void Scene::check_flow() const {
     double scale = 0.0, gap = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (t == 0.0 && !(std::abs(position[i] - x[i]) <= 1e-9 * period_)) {
-        throw SceneError("flow", 0, fmt::format("the flow at t = 0 takes x = {:.6g} to {:.6g}; it must leave it there", x[i],
-                                                position[i]));
+        throw SceneError(
+            "flow", 0,
+            fmt::format("the flow at t = 0 takes x = {:.6g} to {:.6g}; it must leave it there", x[i], position[i]));
       }
       scale = std::max(scale, std::abs(b[i]));
       gap = std::max(gap, std::isfinite(speed[i]) ? std::abs(speed[i] - b[i]) : std::abs(speed[i]));
     }
     if (!(gap <= 1e-9 * std::max(scale, 1e-300))) {
-      throw SceneError("flow", 0, fmt::format("the flow does not follow b: its velocity differs from b by {:.3g} at t = {:.3g}; "
-                                              "leave it out to have it integrated", gap, t));
+      throw SceneError("flow", 0,
+                       fmt::format("the flow does not follow b: its velocity differs from b by {:.3g} at t = {:.3g}; "
+                                   "leave it out to have it integrated",
+                                   gap, t));
     }
     if (!std::is_sorted(position.begin(), position.end()) || !(position.back() < position.front() + period_)) {
-      throw SceneError("flow", 0, fmt::format("the flow does not keep particles in order at t = {:.3g}; it may jump where "
-                                              "it wraps around the period", t));
+      throw SceneError("flow", 0,
+                       fmt::format("the flow does not keep particles in order at t = {:.3g}; it may jump where "
+                                   "it wraps around the period",
+                                   t));
     }
   }
 }
@@ -138,8 +145,8 @@ std::span<const double> Trajectories::at(double t) {
     namespace odeint = boost::numeric::odeint;
     using State = std::vector<double>;
     const auto velocity = [this](const State& x, State& dxdt, double) { scene_.b(x, dxdt); };
-    odeint::integrate_adaptive(odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(1e-14, 1e-14), velocity, x_, t_,
-                               t, t - t_);
+    odeint::integrate_adaptive(odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(1e-14, 1e-14), velocity,
+                               x_, t_, t, t - t_);
   }
   t_ = t;
   return x_;

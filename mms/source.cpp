@@ -234,9 +234,10 @@ std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel&
     auto source = nonlocal_source(scene, model, points);
     if (disagreement(scene, *source, *reference) <= tolerance) return nonlocal_source(scene, model, points);
   }
-  throw std::domain_error(fmt::format("no Gauss rule of up to {} points integrates the source at delta = {:.6g} to round-off; "
-                                      "the fields vary too fast within the horizon: use rule = \"gsl\" or \"boost\"",
-                                      most, model.delta));
+  throw std::domain_error(
+      fmt::format("no Gauss rule of up to {} points integrates the source at delta = {:.6g} to round-off; "
+                  "the fields vary too fast within the horizon: use rule = \"gsl\" or \"boost\"",
+                  most, model.delta));
 }
 
 }  // namespace acstudy

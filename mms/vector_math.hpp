@@ -3,9 +3,10 @@
 /// @file
 /// Elementary functions of whole vectors, where the C library has them.
 ///
-/// The GNU C library's vector variants of sin, cos, exp and log (libmvec, at most 4 units in the last place) are offered to
-/// the compiler here, for the translation unit that includes this header and for no other; so this is the one place where
-/// a function value may differ from the scalar library's. Everywhere else, and with other C libraries, <cmath> is used.
+/// The GNU C library's vector variants of sin, cos, exp and log (libmvec, at most 4 units in the last place) are
+/// offered to the compiler here, for the translation unit that includes this header and for no other; so this is the
+/// one place where a function value may differ from the scalar library's. Everywhere else, and with other C libraries,
+/// <cmath> is used.
 
 #include <cmath>
 #include <cstddef>

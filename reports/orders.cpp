@@ -21,9 +21,15 @@ struct NamedVerdict {
   std::string_view name;
 };
 constexpr NamedVerdict names[] = {
-    {Verdict::confirmed, "confirmed"}, {Verdict::pre_asymptotic, "pre-asymptotic"}, {Verdict::below, "below"},
-    {Verdict::above, "above"},         {Verdict::stagnates, "stagnates"},           {Verdict::floor, "floor"},
-    {Verdict::diverges, "diverges"},   {Verdict::unstable, "unstable"},             {Verdict::inconclusive, "inconclusive"},
+    {Verdict::confirmed, "confirmed"},
+    {Verdict::pre_asymptotic, "pre-asymptotic"},
+    {Verdict::below, "below"},
+    {Verdict::above, "above"},
+    {Verdict::stagnates, "stagnates"},
+    {Verdict::floor, "floor"},
+    {Verdict::diverges, "diverges"},
+    {Verdict::unstable, "unstable"},
+    {Verdict::inconclusive, "inconclusive"},
 };
 
 /// Errors of this size are round-off of a solution of order one, accumulated over a run.
@@ -49,14 +55,16 @@ double extrapolated_order(const Eigen::VectorXd& v, const Eigen::VectorXd& log_v
   };
   constexpr double lowest = -0.95, highest = 20.0;
   constexpr int cells = 60;
-  const auto D_at = [&](int i) { return std::expm1(std::log1p(lowest) + (std::log1p(highest) - std::log1p(lowest)) * i / cells); };
+  const auto D_at = [&](int i) {
+    return std::expm1(std::log1p(lowest) + (std::log1p(highest) - std::log1p(lowest)) * i / cells);
+  };
   int best = 0;
   for (int i = 1; i <= cells; ++i) {
     if (fit(D_at(i)).residual < fit(D_at(best)).residual) best = i;
   }
-  const auto [D, residual] = boost::math::tools::brent_find_minima([&](double trial) { return fit(trial).residual; },
-                                                                   D_at(std::max(best - 1, 0)),
-                                                                   D_at(std::min(best + 1, cells)), 40);
+  const auto [D, residual] =
+      boost::math::tools::brent_find_minima([&](double trial) { return fit(trial).residual; },
+                                            D_at(std::max(best - 1, 0)), D_at(std::min(best + 1, cells)), 40);
   return fit(D).slope;
 }
 
@@ -71,26 +79,31 @@ bool judge_levels(std::span<const Level> levels, Judgement& result) {
   };
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (!std::isfinite(levels[i].error)) {
-      return conclude(Verdict::unstable, fmt::format("the error of level {} of {} is {}", i + 1, levels.size(), levels[i].error));
+      return conclude(Verdict::unstable,
+                      fmt::format("the error of level {} of {} is {}", i + 1, levels.size(), levels[i].error));
     }
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (levels[i].error < 0.0) {
-      return conclude(Verdict::inconclusive, fmt::format("the error of level {} is negative: {:.3g}", i + 1, levels[i].error));
+      return conclude(Verdict::inconclusive,
+                      fmt::format("the error of level {} is negative: {:.3g}", i + 1, levels[i].error));
     }
     if (!(levels[i].variable > 0.0) || !std::isfinite(levels[i].variable)) {
-      return conclude(Verdict::inconclusive, fmt::format("the variable of level {} is {:.3g}; it must be positive", i + 1,
-                                                         levels[i].variable));
+      return conclude(Verdict::inconclusive, fmt::format("the variable of level {} is {:.3g}; it must be positive",
+                                                         i + 1, levels[i].variable));
     }
     if (i > 0 && !(levels[i].variable < levels[i - 1].variable)) {
-      return conclude(Verdict::inconclusive, fmt::format("level {} does not refine level {}: the variable goes from {:.3g} to {:.3g}",
-                                                         i + 1, i, levels[i - 1].variable, levels[i].variable));
+      return conclude(Verdict::inconclusive,
+                      fmt::format("level {} does not refine level {}: the variable goes from {:.3g} to {:.3g}", i + 1,
+                                  i, levels[i - 1].variable, levels[i].variable));
     }
   }
   if (levels.size() < 3) {
-    return conclude(Verdict::inconclusive, fmt::format("{} level(s); an order with an interval needs at least 3", levels.size()));
+    return conclude(Verdict::inconclusive,
+                    fmt::format("{} level(s); an order with an interval needs at least 3", levels.size()));
   }
-  const auto smallest = std::min_element(levels.begin(), levels.end(), [](auto a, auto b) { return a.error < b.error; });
+  const auto smallest =
+      std::min_element(levels.begin(), levels.end(), [](auto a, auto b) { return a.error < b.error; });
   const double first = levels.front().error, last = levels.back().error;
   if (last <= round_off) {
     return conclude(Verdict::floor, fmt::format("the finest error, {:.2g}, is round-off", last));
@@ -102,11 +115,13 @@ bool judge_levels(std::span<const Level> levels, Judgement& result) {
   if (last > smallest->error) {
     const double growth = std::log(last / smallest->error) / std::log(smallest->variable / levels.back().variable);
     if (growth > 4.0) {
-      return conclude(Verdict::unstable, fmt::format("the error grows from {:.2g} to {:.2g}, like the variable to the power {:.1f}",
-                                                     smallest->error, last, -growth));
+      return conclude(Verdict::unstable,
+                      fmt::format("the error grows from {:.2g} to {:.2g}, like the variable to the power {:.1f}",
+                                  smallest->error, last, -growth));
     }
     if (last > first) {
-      return conclude(Verdict::diverges, fmt::format("the error grows from {:.2g} to {:.2g} under refinement", first, last));
+      return conclude(Verdict::diverges,
+                      fmt::format("the error grows from {:.2g} to {:.2g} under refinement", first, last));
     }
   }
   return false;
@@ -130,31 +145,35 @@ void judge_order(std::span<const Level> levels, double theory, Judgement& result
 
   if (theory == 0.0) {
     if (std::abs(last) <= order_tolerance) {
-      return conclude(Verdict::stagnates, fmt::format("the error settles at {:.3g}, last pairwise order {:.2f}, as theory says",
-                                                      levels.back().error, last));
+      return conclude(Verdict::stagnates,
+                      fmt::format("the error settles at {:.3g}, last pairwise order {:.2f}, as theory says",
+                                  levels.back().error, last));
     }
-    return conclude(Verdict::inconclusive, fmt::format("the error has not settled: pairwise orders {}", listed(pairwise)));
+    return conclude(Verdict::inconclusive,
+                    fmt::format("the error has not settled: pairwise orders {}", listed(pairwise)));
   }
   if (result.high - result.low > 2.0 && !approaching) {
-    return conclude(Verdict::inconclusive, fmt::format("{}: the interval is too wide to judge; pairwise orders {}", fitted,
-                                                       listed(pairwise)));
+    return conclude(Verdict::inconclusive,
+                    fmt::format("{}: the interval is too wide to judge; pairwise orders {}", fitted, listed(pairwise)));
   }
   if (agrees(result.order) && agrees(last)) {
-    return conclude(Verdict::confirmed, fmt::format("{} and last pairwise order {:.2f} agree with theory's {:g}", fitted, last, theory));
+    return conclude(Verdict::confirmed,
+                    fmt::format("{} and last pairwise order {:.2f} agree with theory's {:g}", fitted, last, theory));
   }
   if (approaching && agrees(result.extrapolated)) {
-    return conclude(Verdict::pre_asymptotic,
-                    fmt::format("pairwise orders {} move toward {:g} and extrapolate to {:.2f}; the fitted {} is not there yet",
-                                listed(pairwise), theory, result.extrapolated, fitted));
+    return conclude(
+        Verdict::pre_asymptotic,
+        fmt::format("pairwise orders {} move toward {:g} and extrapolate to {:.2f}; the fitted {} is not there yet",
+                    listed(pairwise), theory, result.extrapolated, fitted));
   }
   if (last < 0.25 * theory) {
-    return conclude(Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}", levels.back().error,
-                                                    listed(pairwise)));
+    return conclude(Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}",
+                                                    levels.back().error, listed(pairwise)));
   }
   const double distance = agrees(last) ? result.order - theory : last - theory;
   conclude(distance < 0.0 ? Verdict::below : Verdict::above,
-           fmt::format("{}, theory says {:g}; pairwise orders {} do not approach it within {:g}", fitted, theory, listed(pairwise),
-                       order_tolerance));
+           fmt::format("{}, theory says {:g}; pairwise orders {} do not approach it within {:g}", fitted, theory,
+                       listed(pairwise), order_tolerance));
 }
 
 }  // namespace
@@ -164,7 +183,8 @@ std::string_view name_of(Verdict verdict) {
 }
 
 std::optional<Verdict> verdict_from(std::string_view text) {
-  const auto* const found = std::find_if(std::begin(names), std::end(names), [&](auto& entry) { return entry.name == text; });
+  const auto* const found =
+      std::find_if(std::begin(names), std::end(names), [&](auto& entry) { return entry.name == text; });
   return found == std::end(names) ? std::nullopt : std::optional(found->verdict);
 }
 

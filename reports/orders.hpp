@@ -47,17 +47,17 @@ inline constexpr double order_tolerance = 0.05;
 
 /// Judges errors under refinement against theory's order.
 ///
-/// Confirmed means: the fitted order and the last pairwise order lie within `order_tolerance` of theory's. Pre-asymptotic
-/// means: they do not yet, but each pairwise order is closer to theory's than the one before, and the extrapolated order
-/// lies within the tolerance. Both bounds are two-sided. Nothing else passes: a level that is not finite, zero or
-/// negative, a growing error or fewer than three levels have verdicts of their own.
+/// Confirmed means: the fitted order and the last pairwise order lie within `order_tolerance` of theory's.
+/// Pre-asymptotic means: they do not yet, but each pairwise order is closer to theory's than the one before, and the
+/// extrapolated order lies within the tolerance. Both bounds are two-sided. Nothing else passes: a level that is not
+/// finite, zero or negative, a growing error or fewer than three levels have verdicts of their own.
 ///
 /// @param levels        coarse to fine; the actual variable of each level, so any refinement ratio is right
 /// @param theory_order  0 where theory says that the error does not vanish
 Judgement judge(std::span<const Level> levels, double theory_order);
 
-/// True if the verdict is what a study expects; "confirmed" is met by `pre_asymptotic` too, since both say that theory's
-/// order holds.
+/// True if the verdict is what a study expects; "confirmed" is met by `pre_asymptotic` too, since both say that
+/// theory's order holds.
 bool meets(Verdict verdict, Verdict expected);
 
 }  // namespace acstudy

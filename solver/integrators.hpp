@@ -3,10 +3,12 @@
 /// @file
 /// Explicit strong-stability-preserving Runge-Kutta schemes in Shu-Osher form.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "solver/particles.hpp"
 
@@ -18,8 +20,8 @@ struct Stage {
   double time;
 };
 
-/// A scheme is its table. Convex weights make every stage a convex combination of forward Euler steps, so the maximum-norm
-/// bounds of Lemmas 2.4 and 3.3 carry over at the same time step.
+/// A scheme is its table. Convex weights make every stage a convex combination of forward Euler steps, so the
+/// maximum-norm bounds of Lemmas 2.4 and 3.3 carry over at the same time step.
 struct Integrator {
   std::string_view name;
   int order;

@@ -18,8 +18,8 @@ namespace acstudy {
 
 /// Semidiscrete Model II, without the source: du_j/dt = rate_j(u).
 ///
-/// W_{j,k} is the integral of w^delta(y - x_j) over the cell between neighbors k - 1 and k, the outermost cell reaching to
-/// the horizon; negative for k < 0. Over k = -l_j .. r_j, k != 0, with i = j + k:
+/// W_{j,k} is the integral of w^delta(y - x_j) over the cell between neighbors k - 1 and k, the outermost cell reaching
+/// to the horizon; negative for k < 0. Over k = -l_j .. r_j, k != 0, with i = j + k:
 ///
 ///     N_j = sum_k (x_i - x_j) W_{j,k}                              N_j >= 1 (Lemma 3.1), sum_k W_{j,k} = 0 (3.4)
 ///     A_j = (1/N_j) sum_k c_hat((x_j + x_i)/2) (u_j + u_i) W_{j,k}
@@ -132,7 +132,8 @@ void ModelII<K, Divergence>::set_pairs(const Particles& particles, const V& velo
   pairs_.offset[0] = 0;
   for (std::ptrdiff_t j = 0; j < n; ++j) pairs_.offset[j + 1] = pairs_.offset[j] + right[j];
   const auto count = static_cast<std::size_t>(pairs_.offset[n]);
-  for (auto* column : {&pairs_.distance, &pairs_.inverse_distance, &pairs_.mass, &pairs_.midpoint, &pairs_.c_hat}) column->resize(count);
+  for (auto* column : {&pairs_.distance, &pairs_.inverse_distance, &pairs_.mass, &pairs_.midpoint, &pairs_.c_hat})
+    column->resize(count);
   for (std::ptrdiff_t j = 0; j < n; ++j) {
     const double* const x = particles.x.at(j);
     double* const distance = pairs_.distance.data() + pairs_.offset[j];

@@ -38,9 +38,8 @@ Particles::Particles(std::size_t count, double period_, double delta_) : x(count
 }
 
 void Particles::place(std::span<const double> positions) {
-  const bool sorted = std::adjacent_find(positions.begin(), positions.end(), [](double a, double b) {
-                        return !(a < b);
-                      }) == positions.end();
+  const bool sorted = std::adjacent_find(positions.begin(), positions.end(),
+                                         [](double a, double b) { return !(a < b); }) == positions.end();
   if (!sorted || !(positions.back() < positions.front() + period)) {
     throw std::domain_error("particles have crossed: positions no longer increase within one period");
   }

@@ -12,7 +12,8 @@ namespace acstudy {
 
 /// Values at the particles j = 0 .. N-1, readable at j - k and j + k after `wrap(k)`.
 ///
-/// A neighbor sum then runs over consecutive memory: ghosts cost 2k copies once, an index modulo N would cost every pair.
+/// A neighbor sum then runs over consecutive memory: ghosts cost 2k copies once, an index modulo N would cost every
+/// pair.
 class PeriodicArray {
  public:
   explicit PeriodicArray(std::size_t size = 0) : size_(size), values_(3 * size) {}

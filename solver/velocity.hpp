@@ -12,11 +12,14 @@ namespace acstudy {
 /// Role of a velocity: fills `out[i]` with the field at `x[i]`; whole arrays at once, so that a field given by an
 /// expression costs one call a sweep and not one a pair.
 template <class V>
-concept AdvectionVelocity = requires(const V v, std::span<const double> x, std::span<double> out) { v.c(x, out); };
+concept AdvectionVelocity = requires(const V v, std::span<const double> x, std::span<double> out) {
+  v.c(x, out);
+};
 
 /// A velocity with a particle motion x' = b(x).
 template <class V>
-concept ParticleVelocity = AdvectionVelocity<V> && requires(const V v, std::span<const double> x, std::span<double> out) {
+concept ParticleVelocity = AdvectionVelocity<V> &&
+    requires(const V v, std::span<const double> x, std::span<double> out) {
   v.b(x, out);
   v.b_prime(x, out);
 };

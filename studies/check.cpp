@@ -17,7 +17,9 @@ namespace {
 using nlohmann::json;
 
 /// JSON has no NaN; null stands for it.
-double real(const json& value) { return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>(); }
+double real(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
 
 Verdict verdict(const json& value) {
   const auto found = verdict_from(value.get<std::string>());
@@ -60,15 +62,19 @@ std::string CheckedSeries::remark() const {
 
 std::vector<CheckedSeries> check_file(const std::string& file) {
   std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot read the result file; name a .json file that acstudy run has written", file));
+  if (!in)
+    throw InputError(
+        fmt::format("{}: cannot read the result file; name a .json file that acstudy run has written", file));
   std::vector<CheckedSeries> all;
   try {
     const json root = json::parse(in);
-    for (const json& series : root.at("series")) all.push_back(check_series(root.at("study").get<std::string>(), series));
+    for (const json& series : root.at("series"))
+      all.push_back(check_series(root.at("study").get<std::string>(), series));
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: not a result file of acstudy: {}", file, error.what()));
   }
-  if (all.empty()) throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));
+  if (all.empty())
+    throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));
   return all;
 }
 

@@ -11,9 +11,12 @@ namespace {
 
 const char* text(SourceRule rule) {
   switch (rule) {
-    case SourceRule::gauss: return "a Gauss rule of the kernel's own weight";
-    case SourceRule::gsl: return "adaptive GSL quadrature";
-    case SourceRule::boost: return "adaptive Boost.Math quadrature";
+    case SourceRule::gauss:
+      return "a Gauss rule of the kernel's own weight";
+    case SourceRule::gsl:
+      return "adaptive GSL quadrature";
+    case SourceRule::boost:
+      return "adaptive Boost.Math quadrature";
   }
   return "";
 }
@@ -24,7 +27,9 @@ std::string left_out(const Study& study) {
   std::string out;
   const auto line = [&](const std::string& what) { out += "  - " + what + "\n"; };
   if (study.scene->standing()) {
-    line("particle motion: b is absent, so no flow, no b terms; windows, weights and velocities once a case (weight_builds = 1)");
+    line(
+        "particle motion: b is absent, so no flow, no b terms; windows, weights and velocities once a case "
+        "(weight_builds = 1)");
   }
   if (any([](const Series& s) { return !s.nonlocal_source; })) {
     line("source quadrature where the source is local: f = u_t + (c u)_x (quadrature_points = 0)");
@@ -42,8 +47,9 @@ std::string left_out(const Study& study) {
 std::string explain(const Study& study) {
   const SceneText& scene = study.scene->text();
   std::string out = fmt::format("{} - {}\n\n", study.name, study.title);
-  out += fmt::format("scene {}: period {}, T = {}\n  c = {}\n  b = {}\n  u = {}\n", scene.name.empty() ? "(inline)" : scene.name,
-                     scene.period, scene.T, scene.c, study.scene->standing() ? "0 (particles stand still)" : *scene.b, scene.u);
+  out += fmt::format("scene {}: period {}, T = {}\n  c = {}\n  b = {}\n  u = {}\n",
+                     scene.name.empty() ? "(inline)" : scene.name, scene.period, scene.T, scene.c,
+                     study.scene->standing() ? "0 (particles stand still)" : *scene.b, scene.u);
   if (!study.scene->standing()) {
     out += fmt::format("  flow = {}\n", scene.flow ? *scene.flow : "integrated from x' = b(x) to round-off");
   }
@@ -51,29 +57,34 @@ std::string explain(const Study& study) {
 
   std::size_t count = 0;
   for (const Series& series : study.series) {
-    out += fmt::format("\n{}, source {}\n", series.label(study.scene->standing()), series.nonlocal_source ? "nonlocal" : "local");
+    out += fmt::format("\n{}, source {}\n", series.label(study.scene->standing()),
+                       series.nonlocal_source ? "nonlocal" : "local");
     if (series.nonlocal_source) out += fmt::format("  source by {}\n", text(study.source_rule));
     if (series.theory.order > 0.0) {
-      out += fmt::format("  theory: order {:g} in {} ({})\n", series.theory.order, series.theory.variable, series.theory.statement);
+      out += fmt::format("  theory: order {:g} in {} ({})\n", series.theory.order, series.theory.variable,
+                         series.theory.statement);
     } else {
       out += fmt::format("  theory: the error does not vanish ({})\n", series.theory.statement);
     }
     out += fmt::format("  the gate expects: {}\n", name_of(series.expected));
     if (series.scheme.model == 2) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
-    out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps", "neighbors", "CFL");
+    out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps",
+                       "neighbors", "CFL");
     for (const Case& c : series.cases) {
       const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
-      out += fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}\n", c.N, c.h, c.delta, c.dt, c.steps,
-                         (series.scheme.model == 1 ? 1 : 2) * static_cast<std::int64_t>(per_side), c.cfl(),
+      out += fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}\n", c.N, c.h, c.delta, c.dt,
+                         c.steps, (series.scheme.model == 1 ? 1 : 2) * static_cast<std::int64_t>(per_side), c.cfl(),
                          c.cfl() > 1.0 ? "  beyond the bound 1 of the stability lemma" : "");
       ++count;
     }
     if (series.scheme.mu && *series.scheme.mu < study.scene->max_relative_velocity()) {
-      out += fmt::format("  mu is below max|c - b| = {:.6g}: Lemma 3.3 does not promise stability\n", study.scene->max_relative_velocity());
+      out += fmt::format("  mu is below max|c - b| = {:.6g}: Lemma 3.3 does not promise stability\n",
+                         study.scene->max_relative_velocity());
     }
   }
-  out += fmt::format("\n{} series, {} cases; neighbors and CFL at the uniform start\n\nleft out, because nothing here needs it:\n{}",
-                     study.series.size(), count, left_out(study));
+  out += fmt::format(
+      "\n{} series, {} cases; neighbors and CFL at the uniform start\n\nleft out, because nothing here needs it:\n{}",
+      study.series.size(), count, left_out(study));
   return out;
 }
 

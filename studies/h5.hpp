@@ -16,7 +16,8 @@
 
 namespace acstudy::h5 {
 
-/// An HDF5 identifier, closed at the end of its life. @throws StoreError from the constructor if HDF5 reported a failure.
+/// An HDF5 identifier, closed at the end of its life. @throws StoreError from the constructor if HDF5 reported a
+/// failure.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
@@ -59,7 +60,8 @@ inline void write_text(hid_t object, const std::string& name, const std::string&
   check(H5Tset_size(type, text.size() + 1), "size a text");
   check(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "create attribute " + name);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "create attribute " + name);
   check(H5Awrite(attribute, type, text.c_str()), "write attribute " + name);
 }
 
@@ -84,9 +86,10 @@ template <class T>
 void write_column(hid_t group, const std::string& name, std::span<const T> values) {
   const hsize_t size = values.size();
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "make a column");
-  const Handle data(H5Dcreate2(group, name.c_str(), native<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                    "create column " + name);
-  if (size > 0) check(H5Dwrite(data, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write column " + name);
+  const Handle data(H5Dcreate2(group, name.c_str(), native<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Dclose, "create column " + name);
+  if (size > 0)
+    check(H5Dwrite(data, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write column " + name);
 }
 
 template <class T>

@@ -69,8 +69,8 @@ std::string interval(const Judgement& judgement) {
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", judgement.order, judgement.low, judgement.high);
 }
 
-void print_row(bool passes, std::string_view study, std::string_view series, const Judgement& judgement, Verdict expected,
-               std::string_view remark) {
+void print_row(bool passes, std::string_view study, std::string_view series, const Judgement& judgement,
+               Verdict expected, std::string_view remark) {
   fmt::print("{:<6} {:<12} {:<58} {:<20} {:<15}", passes ? "ok" : "DEPART", study, series, interval(judgement),
              name_of(judgement.verdict));
   if (!passes && expected != judgement.verdict) fmt::print(" expected {}", name_of(expected));
@@ -88,13 +88,14 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   int status = done;
   for (const StudyResult& study : result.studies) {
     for (const SeriesResult& series : study.series) {
-      print_row(series.as_expected(), study.study->name, series.series->label(study.study->scene->standing()), series.judgement,
-                series.series->expected, series.judgement.reason);
+      print_row(series.as_expected(), study.study->name, series.series->label(study.study->scene->standing()),
+                series.judgement, series.series->expected, series.judgement.reason);
       if (series.as_expected()) continue;
       status = std::max<int>(status, series.judgement.verdict == Verdict::unstable ? numerical_failure : departs);
     }
   }
-  fmt::print("{} cases computed, {} taken from the store; results in {}\n", result.computed, result.reused, options.out.string());
+  fmt::print("{} cases computed, {} taken from the store; results in {}\n", result.computed, result.reused,
+             options.out.string());
   if (result.interrupted) {
     fmt::print(stderr, "acstudy: interrupted; finished cases are stored, and the same command goes on from them\n");
     return interrupted;
@@ -123,28 +124,33 @@ int list(const std::string& what) {
   const char* indent = what.empty() ? "  " : "";
   if (what.empty() || what == "schemes") {
     heading("schemes");
-    fmt::print("{0}model = 1, divergence = \"local\"     Model I, scheme 1 (2.9); (2.4) where particles stand still\n"
-               "{0}model = 1, divergence = \"nonlocal\"  Model I, scheme 2 (2.11)\n"
-               "{0}model = 2, divergence = \"local\"     Model II, scheme 1 (3.8); (3.6) where particles stand still\n"
-               "{0}model = 2, divergence = \"nonlocal\"  Model II, scheme 2 (3.10)\n", indent);
+    fmt::print(
+        "{0}model = 1, divergence = \"local\"     Model I, scheme 1 (2.9); (2.4) where particles stand still\n"
+        "{0}model = 1, divergence = \"nonlocal\"  Model I, scheme 2 (2.11)\n"
+        "{0}model = 2, divergence = \"local\"     Model II, scheme 1 (3.8); (3.6) where particles stand still\n"
+        "{0}model = 2, divergence = \"nonlocal\"  Model II, scheme 2 (3.10)\n",
+        indent);
   }
   if (what.empty() || what == "kernels") {
     heading("kernels");
-    fmt::print("{0}\"inverse\"                           Model I: eta(s) = 1/(delta s)\n"
-               "{0}{{ name = \"power\", alpha = A }}       eta(s) ~ s^-A; Model I: A < 2, Model II: A < 1\n"
-               "{0}\"cubic-spline\"                      Model II; Model I: its upwind half, doubled\n", indent);
+    fmt::print(
+        "{0}\"inverse\"                           Model I: eta(s) = 1/(delta s)\n"
+        "{0}{{ name = \"power\", alpha = A }}       eta(s) ~ s^-A; Model I: A < 2, Model II: A < 1\n"
+        "{0}\"cubic-spline\"                      Model II; Model I: its upwind half, doubled\n",
+        indent);
   }
   if (what.empty() || what == "integrators") {
     heading("integrators");
     for (const Integrator& integrator : integrators) {
-      fmt::print("{}{:<35} order {}, {} stage(s)\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order, integrator.stages.size());
+      fmt::print("{}{:<35} order {}, {} stage(s)\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order,
+                 integrator.stages.size());
     }
   }
   if (what.empty() || what == "scenes") {
     heading("scenes");
     for (const SceneText& scene : named_scenes()) {
-      fmt::print("{}{:<35} period {}, T = {}, c = {}, b = {}, u = {}\n", indent, fmt::format("\"{}\"", scene.name), scene.period, scene.T, scene.c,
-                 scene.b.value_or("0"), scene.u);
+      fmt::print("{}{:<35} period {}, T = {}, c = {}, b = {}, u = {}\n", indent, fmt::format("\"{}\"", scene.name),
+                 scene.period, scene.T, scene.c, scene.b.value_or("0"), scene.u);
     }
   }
   return done;
@@ -153,11 +159,13 @@ int list(const std::string& what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Verification and convergence studies of asymptotically compatible particle schemes for linear advection.");
+  CLI::App app(
+      "Verification and convergence studies of asymptotically compatible particle schemes for linear advection.");
   app.set_version_flag("--version", fmt::format("acstudy {}", build_info::version));
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done and all as expected, 1 a verdict departs, 2 bad input (nothing run or written),\n"
-             "3 a run failed numerically, 4 the machine failed it, 130 interrupted.");
+  app.footer(
+      "Exit codes: 0 done and all as expected, 1 a verdict departs, 2 bad input (nothing run or written),\n"
+      "3 a run failed numerically, 4 the machine failed it, 130 interrupted.");
 
   std::vector<std::string> files;
   RunOptions options;
@@ -173,10 +181,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   run_command->add_flag("--fresh", options.fresh, "run stored cases again");
 
-  CLI::App* const check_command = app.add_subcommand("check", "The gate: judge result files; exit 1 if a verdict departs");
+  CLI::App* const check_command =
+      app.add_subcommand("check", "The gate: judge result files; exit 1 if a verdict departs");
   check_command->add_option("FILE.json", files, "result files")->required();
 
-  CLI::App* const explain_command = app.add_subcommand("explain", "Print what a study computes and what it leaves out; computes nothing");
+  CLI::App* const explain_command =
+      app.add_subcommand("explain", "Print what a study computes and what it leaves out; computes nothing");
   explain_command->add_option("STUDY.toml", files, "study files")->required();
 
   CLI::App* const list_command = app.add_subcommand("list", "Print what can be named in a study");

@@ -37,9 +37,9 @@ Provenance collect_provenance(int jobs, const std::string& command) {
   utsname system{};
   uname(&system);
   const std::string libraries =
-      fmt::format("GSL {}, HDF5 {}.{}.{}, muParser {}, Eigen {}.{}.{}, Boost {}.{}", gsl_version, H5_VERS_MAJOR, H5_VERS_MINOR,
-                  H5_VERS_RELEASE, mu::Parser().GetVersion(mu::pviBRIEF), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
-                  BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000);
+      fmt::format("GSL {}, HDF5 {}.{}.{}, muParser {}, Eigen {}.{}.{}, Boost {}.{}", gsl_version, H5_VERS_MAJOR,
+                  H5_VERS_MINOR, H5_VERS_RELEASE, mu::Parser().GetVersion(mu::pviBRIEF), EIGEN_WORLD_VERSION,
+                  EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000);
   return {
       {"version", build_info::version},
       {"numerics", build_info::numerics},

@@ -15,7 +15,8 @@ namespace {
 
 std::unique_ptr<Source> make_source(const Case& c, KernelProfile kernel) {
   if (!c.nonlocal_source) return local_source(*c.scene);
-  return nonlocal_source(*c.scene, {c.scheme.model, c.scheme.nonlocal_divergence, std::move(kernel), c.delta, c.mu}, c.source_rule);
+  return nonlocal_source(*c.scene, {c.scheme.model, c.scheme.nonlocal_divergence, std::move(kernel), c.delta, c.mu},
+                         c.source_rule);
 }
 
 template <class Motion, class Divergence, class K>
@@ -46,7 +47,7 @@ CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
 
 CaseResult run_case(const Case& c, const std::atomic<bool>& stop) {
   constexpr std::size_t most_repeats = 5;
-  constexpr double enough_seconds = 0.5;
+  constexpr double enough_seconds = 0.1;
 
   std::vector<double> seconds, source_seconds;
   CaseResult result;

@@ -19,9 +19,9 @@ struct CaseResult {
   double error_linf = 0.0;
   double error_l1 = 0.0, error_l2 = 0.0;  ///< weighted by cell width, divided by the period
 
-  double seconds = 0.0;                           ///< wall time of the whole time loop, median over the repeats
-  double seconds_low = 0.0, seconds_high = 0.0;   ///< fastest and slowest repeat
-  double source_seconds = 0.0;                    ///< part of `seconds` spent in the manufactured source
+  double seconds = 0.0;                          ///< wall time of the whole time loop, median over the repeats
+  double seconds_low = 0.0, seconds_high = 0.0;  ///< fastest and slowest repeat
+  double source_seconds = 0.0;                   ///< part of `seconds` spent in the manufactured source
   std::int64_t repeats = 0;
 
   WorkCounts work;

@@ -38,7 +38,8 @@ class Progress {
     if (!on_terminal_) return;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double left = finished_work_ > 0.0 ? elapsed * (work_ - finished_work_) / finished_work_ : 0.0;
-    fmt::print(stderr, "\r\033[K{} of {} cases, {:.0f} s, about {:.0f} s left", finished_, jobs_, elapsed, std::ceil(left));
+    fmt::print(stderr, "\r\033[K{} of {} cases, {:.0f} s, about {:.0f} s left", finished_, jobs_, elapsed,
+               std::ceil(left));
     std::fflush(stderr);
     shown_ = true;
   }

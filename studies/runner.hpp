@@ -31,8 +31,8 @@ struct RunResult {
   bool interrupted = false;
 };
 
-/// Runs every case that is not stored yet, each once even if several studies ask for it, longest first; writes the results
-/// of a study as soon as it is complete, and those of incomplete ones when interrupted.
+/// Runs every case that is not stored yet, each once even if several studies ask for it, longest first; writes the
+/// results of a study as soon as it is complete, and those of incomplete ones when interrupted.
 ///
 /// A case runs in one thread, so its numbers do not depend on `jobs`.
 /// @param stop  once true, running cases end at their next time step

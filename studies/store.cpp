@@ -120,8 +120,10 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   }
 }
 
-void write_h5(const fs::path& file, const Study& study, const std::vector<SeriesResult>& all, const Provenance& provenance) {
-  const h5::Handle root(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "create " + file.string());
+void write_h5(const fs::path& file, const Study& study, const std::vector<SeriesResult>& all,
+              const Provenance& provenance) {
+  const h5::Handle root(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                        "create " + file.string());
   h5::write_text(root, "format", format);
   h5::write_text(root, "study", study.name);
   h5::write_text(root, "title", study.title);
@@ -159,7 +161,8 @@ json to_json(const Study& study, const SeriesResult& result) {
   out["integrator"] = study.integrator->name;
   out["step"] = study.step_text;
   out["motion"] = study.scene->standing() ? "standing" : "moving";
-  out["theory"] = {{"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
+  out["theory"] = {
+      {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
   json pairwise = json::array();
   for (const double order : judgement.pairwise) pairwise.push_back(number(order));
   out["observed"] = {{"order", number(judgement.order)},
@@ -203,9 +206,11 @@ json to_json(const Study& study, const SeriesResult& result) {
 
 /// JSON text with every real number at 17 significant digits; the library writes the fewest that read back the same.
 std::string pretty(const json& value, int depth = 0) {
-  const std::string inner(static_cast<std::size_t>(depth) * 2 + 2, ' '), outer(static_cast<std::size_t>(depth) * 2, ' ');
+  const std::string inner(static_cast<std::size_t>(depth) * 2 + 2, ' '),
+      outer(static_cast<std::size_t>(depth) * 2, ' ');
   const bool leaves = std::none_of(value.begin(), value.end(), [](const json& item) { return item.is_structured(); });
-  const std::string separator = leaves ? ", " : ",\n" + inner, open = leaves ? " " : "\n" + inner, close = leaves ? " " : "\n" + outer;
+  const std::string separator = leaves ? ", " : ",\n" + inner, open = leaves ? " " : "\n" + inner,
+                    close = leaves ? " " : "\n" + outer;
   if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
   if (!value.is_structured() || value.empty()) return value.dump();
   std::string text;
@@ -217,7 +222,8 @@ std::string pretty(const json& value, int depth = 0) {
   return value.is_object() ? "{" + open + text + close + "}" : "[" + open + text + close + "]";
 }
 
-void write_json(const fs::path& file, const Study& study, const std::vector<SeriesResult>& all, const Provenance& provenance) {
+void write_json(const fs::path& file, const Study& study, const std::vector<SeriesResult>& all,
+                const Provenance& provenance) {
   json root = {{"study", study.name}, {"title", study.title}};
   root["provenance"] = json::object();
   for (const auto& [name, value] : provenance) root["provenance"][name] = value;
@@ -276,7 +282,8 @@ StoredCases load_cases(const fs::path& file) {
     const h5::Handle root(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open it");
     if (h5::read_text(root, "format") != format) throw StoreError("its format is not " + std::string(format));
     const h5::Handle origin = h5::open_group(root, "provenance");
-    for (const auto& [name, value] : collect_provenance(0, "")) stored.provenance.emplace_back(name, h5::read_text(origin, name));
+    for (const auto& [name, value] : collect_provenance(0, ""))
+      stored.provenance.emplace_back(name, h5::read_text(origin, name));
     const h5::Handle all = h5::open_group(root, "series");
     for (const std::string& name : h5::group_names(all)) {
       const h5::Handle group = h5::open_group(all, name), cases = h5::open_group(group, "cases");
@@ -302,15 +309,19 @@ StoredCases load_cases(const fs::path& file) {
       }
     }
   } catch (const std::exception& error) {
-    throw StoreError(fmt::format("{}: not a readable result file ({}); remove it, or use --fresh", file.string(), error.what()));
+    throw StoreError(
+        fmt::format("{}: not a readable result file ({}); remove it, or use --fresh", file.string(), error.what()));
   }
   return stored;
 }
 
-void write_results(const fs::path& out, const Study& study, const std::vector<SeriesResult>& series, const Provenance& provenance) {
+void write_results(const fs::path& out, const Study& study, const std::vector<SeriesResult>& series,
+                   const Provenance& provenance) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  replace_atomically(out / (study.name + ".h5"), [&](const fs::path& file) { write_h5(file, study, series, provenance); });
-  replace_atomically(out / (study.name + ".json"), [&](const fs::path& file) { write_json(file, study, series, provenance); });
+  replace_atomically(out / (study.name + ".h5"),
+                     [&](const fs::path& file) { write_h5(file, study, series, provenance); });
+  replace_atomically(out / (study.name + ".json"),
+                     [&](const fs::path& file) { write_json(file, study, series, provenance); });
 }
 
 }  // namespace acstudy

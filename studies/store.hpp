@@ -45,8 +45,8 @@ std::string storage_key(const Case& c);
 /// @throws StoreError if the file is there but cannot be read as a store
 StoredCases load_cases(const std::filesystem::path& file);
 
-/// Writes `<out>/<study>.h5` and `<out>/<study>.json`, each whole or not at all (temporary file, then rename). Cases that
-/// were not completed are left out of both.
+/// Writes `<out>/<study>.h5` and `<out>/<study>.json`, each whole or not at all (temporary file, then rename). Cases
+/// that were not completed are left out of both.
 /// @throws StoreError
 void write_results(const std::filesystem::path& out, const Study& study, const std::vector<SeriesResult>& series,
                    const Provenance& provenance);

@@ -44,7 +44,8 @@ class Table {
   void allow(const std::vector<std::string>& known) const {
     for (const auto& [key, value] : table_) {
       if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
-        at(key.source()).fail(fmt::format("unknown key \"{}\" in {}; known keys: {}", key.str(), title_, fmt::join(known, ", ")));
+        at(key.source())
+            .fail(fmt::format("unknown key \"{}\" in {}; known keys: {}", key.str(), title_, fmt::join(known, ", ")));
       }
     }
   }
@@ -73,7 +74,8 @@ class Table {
     if (const auto value = node.value_exact<std::int64_t>()) return fmt::format("{}", *value);
     offset = 1;
     if (const auto value = node.value_exact<std::string>()) return *value;
-    place(node).fail(fmt::format("{} must be an expression or a number, not {}; write, for example, {}", key, described(node), example));
+    place(node).fail(fmt::format("{} must be an expression or a number, not {}; write, for example, {}", key,
+                                 described(node), example));
   }
 
   double number(std::string_view key, const toml::node& node) const {
@@ -111,13 +113,16 @@ class Table {
   std::string file_;
 };
 
-Expression compile(const Table& table, std::string_view key, std::string_view example, const std::vector<std::string>& variables) {
+Expression compile(const Table& table, std::string_view key, std::string_view example,
+                   const std::vector<std::string>& variables) {
   std::size_t offset = 0;
   const std::string text = table.expression_text(key, example, offset);
   try {
     return Expression(text, variables);
   } catch (const ExpressionError& error) {
-    table.place(*table.find(key)).shifted(offset + error.position).fail(fmt::format("{} = \"{}\": {}", key, text, error.what()));
+    table.place(*table.find(key))
+        .shifted(offset + error.position)
+        .fail(fmt::format("{} = \"{}\": {}", key, text, error.what()));
   }
 }
 
@@ -140,7 +145,8 @@ std::shared_ptr<const Scene> read_scene(const Table& table) {
   std::size_t offset = 0;
   if (named == nullptr) {
     if (table.find("c") == nullptr && table.find("u") == nullptr) {
-      table.place().fail("[scene] names no scene and gives no fields; write use = \"lee-du-2019\", or period, T, c and u");
+      table.place().fail(
+          "[scene] names no scene and gives no fields; write use = \"lee-du-2019\", or period, T, c and u");
     }
     text.period = table.expression_text("period", "period = \"2*pi\"", offset);
     text.c = table.expression_text("c", "c = \"cos(2*x)/3\"", offset);
@@ -168,13 +174,16 @@ KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model)
     name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
     kernel.name = inner.text("name", *name_node, "name = \"power\"");
     if (const toml::node* const alpha = inner.find("alpha")) {
-      if (kernel.name != "power") inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
+      if (kernel.name != "power")
+        inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
       kernel.alpha = inner.number("alpha", *alpha);
       if (!std::isfinite(kernel.alpha) || kernel.alpha >= 2.0) {
-        inner.place(*alpha).fail(fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
+        inner.place(*alpha).fail(
+            fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
       }
       if (model == 2 && kernel.alpha >= 1.0) {
-        inner.place(*alpha).fail(fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
+        inner.place(*alpha).fail(
+            fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
       }
     } else if (kernel.name == "power") {
       inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
@@ -187,12 +196,14 @@ KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model)
   }
   const auto& known = kernel_names();
   if (std::find(known.begin(), known.end(), kernel.name) == known.end()) {
-    scheme.place(*name_node).fail(fmt::format("unknown kernel \"{}\"; known kernels: {}", kernel.name, fmt::join(known, ", ")));
+    scheme.place(*name_node)
+        .fail(fmt::format("unknown kernel \"{}\"; known kernels: {}", kernel.name, fmt::join(known, ", ")));
   }
   if (model == 2 && kernel.name == "inverse") {
-    scheme.place(*name_node).fail(
-        "Model II needs an integrable kernel, and the inverse kernel is not; write \"cubic-spline\" or "
-        "{ name = \"power\", alpha = 0.5 } with alpha < 1");
+    scheme.place(*name_node)
+        .fail(
+            "Model II needs an integrable kernel, and the inverse kernel is not; write \"cubic-spline\" or "
+            "{ name = \"power\", alpha = 0.5 } with alpha < 1");
   }
   return kernel;
 }
@@ -233,8 +244,10 @@ std::vector<std::int64_t> read_levels(const Table& table) {
   std::vector<std::int64_t> N;
   for (const toml::node& item : *array) {
     const auto value = item.value_exact<std::int64_t>();
-    if (!value) table.place(item).fail(fmt::format("N contains {}; every entry must be a whole number", Table::described(item)));
-    if (*value < 3) table.place(item).fail(fmt::format("N = {}; a periodic interval needs at least 3 particles", *value));
+    if (!value)
+      table.place(item).fail(fmt::format("N contains {}; every entry must be a whole number", Table::described(item)));
+    if (*value < 3)
+      table.place(item).fail(fmt::format("N = {}; a periodic interval needs at least 3 particles", *value));
     if (*value > 100'000'000) table.place(item).fail(fmt::format("N = {}; the most is 100000000", *value));
     if (!N.empty() && *value <= N.back()) {
       table.place(item).fail(fmt::format("N = {} after {}; levels must go from coarse to fine", *value, N.back()));
@@ -279,7 +292,8 @@ std::vector<Table> read_array(const toml::table& root, std::string_view key, con
   const auto region = node->source().begin;
   const toml::array* const array = node->as_array();
   if (array == nullptr || !array->is_homogeneous(toml::node_type::table)) {
-    Place{file, region.line, region.column}.fail(fmt::format("{} must be a list of tables; write {} above its keys", key, title));
+    Place{file, region.line, region.column}.fail(
+        fmt::format("{} must be a list of tables; write {} above its keys", key, title));
   }
   std::vector<Table> tables;
   for (const toml::node& item : *array) tables.emplace_back(*item.as_table(), title, file);
@@ -296,8 +310,8 @@ Table read_table(const toml::table& root, std::string_view key, const std::strin
   return {*node->as_table(), fmt::format("[{}]", key), file};
 }
 
-std::vector<Case> make_cases(const Study& study, const Table& path_table, const PathChoice& path, const Table& time_table,
-                             const Expression& step, const SchemeChoice& scheme, double mu) {
+std::vector<Case> make_cases(const Study& study, const Table& path_table, const PathChoice& path,
+                             const Table& time_table, const Expression& step, const SchemeChoice& scheme, double mu) {
   std::vector<Case> cases;
   const Scene& scene = *study.scene;
   for (const std::int64_t N : path.N) {
@@ -305,21 +319,27 @@ std::vector<Case> make_cases(const Study& study, const Table& path_table, const 
     const double delta = path.delta({h, count}), bound = step({h, count});
     const Place at_delta = path_table.place(*path_table.find("delta"));
     if (!std::isfinite(delta) || delta <= 0.0) {
-      at_delta.fail(fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must be positive and finite: write an expression "
-                                "in h and N such as \"4*h\"", delta, h, N));
+      at_delta.fail(fmt::format(
+          "delta = {:.6g} at h = {:.6g} (N = {}); a horizon must be positive and finite: write an expression "
+          "in h and N such as \"4*h\"",
+          delta, h, N));
     }
     if (delta >= 0.5 * scene.period()) {
-      at_delta.fail(fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must stay below half the period, {:.6g}, or a "
-                                "particle would meet its own images", delta, h, N, 0.5 * scene.period()));
+      at_delta.fail(
+          fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must stay below half the period, {:.6g}, or a "
+                      "particle would meet its own images",
+                      delta, h, N, 0.5 * scene.period()));
     }
     const Place at_step = time_table.place(*time_table.find("step"));
     if (!std::isfinite(bound) || bound <= 0.0) {
-      at_step.fail(fmt::format("step = {:.6g} at h = {:.6g} (N = {}); a time step must be positive and finite: write an expression "
-                               "in h and N such as \"h/4\"", bound, h, N));
+      at_step.fail(fmt::format(
+          "step = {:.6g} at h = {:.6g} (N = {}); a time step must be positive and finite: write an expression "
+          "in h and N such as \"h/4\"",
+          bound, h, N));
     }
     if (scene.T() / bound > 1e12) {
-      at_step.fail(fmt::format("step = {:.6g} at h = {:.6g} (N = {}) asks for {:.3g} steps; the most is 1e12", bound, h, N,
-                               scene.T() / bound));
+      at_step.fail(fmt::format("step = {:.6g} at h = {:.6g} (N = {}) asks for {:.3g} steps; the most is 1e12", bound, h,
+                               N, scene.T() / bound));
     }
     const std::int64_t steps = steps_for(scene.T(), bound);
     cases.push_back({.scene = study.scene,
@@ -349,23 +369,25 @@ const std::vector<std::string>& kernel_names() {
 std::string Case::key() const {
   const SceneText& text = scene->text();
   return fmt::format(
-      "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={}|"
+      "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
+      "}|"
       "integrator={}|N={}|delta={:.17g}|steps={}",
       text.period, text.T, text.c, text.b.value_or(""), text.u, text.flow.value_or(""), scheme.model,
-      scene->standing() ? "none" : scheme.nonlocal_divergence ? "nonlocal" : "local", scheme.kernel.name, scheme.kernel.alpha, mu,
-      nonlocal_source ? "nonlocal" : "local", static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss),
-      integrator->name, N, delta, steps);
+      scene->standing()            ? "none"
+      : scheme.nonlocal_divergence ? "nonlocal"
+                                   : "local",
+      scheme.kernel.name, scheme.kernel.alpha, mu, nonlocal_source ? "nonlocal" : "local",
+      static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta, steps);
 }
 
 double Case::estimated_work() const {
   const double sides = scheme.model == 1 ? 1.0 : 2.0;
   const double neighbors = sides * std::max(1.0, delta / h) + (nonlocal_source ? 20.0 * sides : 5.0);
-  return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stages.size()) * neighbors;
+  return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stages.size()) *
+         neighbors;
 }
 
-double Case::cfl() const {
-  return scheme.model == 1 ? dt * scene->max_relative_velocity() / h : 2.0 * dt * mu / h;
-}
+double Case::cfl() const { return scheme.model == 1 ? dt * scene->max_relative_velocity() / h : 2.0 * dt * mu / h; }
 
 std::string Series::label(bool standing) const {
   std::string text = scheme.model == 1 ? "Model I" : "Model II";
@@ -390,7 +412,8 @@ Study parse_study(const std::string& text, const std::string& file) {
   const Table header = read_table(root, "study", file);
   header.allow({"name", "title"});
   study.name = header.text("name", "name = \"fig2\"");
-  if (study.name.empty() || study.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
+  if (study.name.empty() ||
+      study.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
     header.place(*header.find("name"))
         .fail(fmt::format("name = \"{}\"; it names result files and may use a-z, 0-9 and - only", study.name));
   }
@@ -402,7 +425,8 @@ Study parse_study(const std::string& text, const std::string& file) {
   time.allow({"integrator", "step"});
   std::vector<std::pair<std::string, const Integrator*>> integrator_words;
   for (const Integrator& integrator : integrators) integrator_words.emplace_back(integrator.name, &integrator);
-  study.integrator = time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), integrator_words);
+  study.integrator =
+      time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), integrator_words);
   const Expression step = compile(time, "step", "step = \"h/4\"", {"h", "N"});
   study.step_text = step.text();
 
@@ -422,7 +446,8 @@ Study parse_study(const std::string& text, const std::string& file) {
   for (const Table& table : path_tables) {
     paths.push_back(read_path(table));
     if (!path_names.insert(paths.back().name).second) {
-      table.place(*table.find("name")).fail(fmt::format("a second path named \"{}\"; names must differ", paths.back().name));
+      table.place(*table.find("name"))
+          .fail(fmt::format("a second path named \"{}\"; names must differ", paths.back().name));
     }
   }
 
@@ -433,7 +458,9 @@ Study parse_study(const std::string& text, const std::string& file) {
     const SchemeChoice scheme = read_scheme(scheme_table, *study.scene);
     if (scheme.model == 2 && !scheme.mu && widest < 0.0) widest = study.scene->max_relative_velocity();
     const double mu = scheme.model == 1 ? 0.0 : scheme.mu.value_or(widest);
-    if (!scheme_keys.insert(fmt::format("{}|{}|{}|{}", scheme.model, scheme.nonlocal_divergence, scheme.kernel.label(), mu)).second) {
+    if (!scheme_keys
+             .insert(fmt::format("{}|{}|{}|{}", scheme.model, scheme.nonlocal_divergence, scheme.kernel.label(), mu))
+             .second) {
       scheme_table.place().fail("the same scheme a second time; leave one of them out");
     }
     for (std::size_t p = 0; p < paths.size(); ++p) {

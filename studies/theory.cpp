@@ -12,11 +12,12 @@ std::string theorem(const SchemeChoice& scheme, bool standing) {
 
 }  // namespace
 
-Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon, bool below_spacing) {
+Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon,
+                  bool below_spacing) {
   const std::string statement = theorem(scheme, standing);
   if (nonlocal_source) {
-    // Part (1) of Model II has the terms h^2/delta and h^3/delta^2, which do not vanish for delta below h; there both the
-    // nonlocal model and the scheme are within O(max(h, delta)) of the PDE, so part (2) carries over.
+    // Part (1) of Model II has the terms h^2/delta and h^3/delta^2, which do not vanish for delta below h; there both
+    // the nonlocal model and the scheme are within O(max(h, delta)) of the PDE, so part (2) carries over.
     if (scheme.model == 2 && below_spacing) return {"max(h,delta)", 1.0, statement + " (2)"};
     return {"h", 1.0, statement + " (1)"};
   }

@@ -11,6 +11,7 @@ namespace acstudy {
 ///
 /// @param fixed_horizon  delta is the same at every level of the path
 /// @param below_spacing  delta < h at the finest level
-Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon, bool below_spacing);
+Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon,
+                  bool below_spacing);
 
 }  // namespace acstudy

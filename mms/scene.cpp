@@ -1,10 +1,11 @@
 #include "mms/scene.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <boost/numeric/odeint.hpp>
 #include <cmath>
 
 namespace acstudy {
@@ -142,11 +143,20 @@ std::span<const double> Trajectories::at(double t) {
   if (scene_.flow()) {
     scene_.flow()->evaluate(start_, {t}, {x_, {}, {}});
   } else {
-    namespace odeint = boost::numeric::odeint;
-    using State = std::vector<double>;
-    const auto velocity = [this](const State& x, State& dxdt, double) { scene_.b(x, dxdt); };
-    odeint::integrate_adaptive(odeint::make_controlled<odeint::runge_kutta_fehlberg78<State>>(1e-14, 1e-14), velocity,
-                               x_, t_, t, t - t_);
+    constexpr double tolerance = 1e-14;
+    gsl_odeiv2_system system{[](double, const double x[], double dxdt[], void* flow) {
+                               const auto& self = *static_cast<const Trajectories*>(flow);
+                               self.scene_.b({x, self.x_.size()}, {dxdt, self.x_.size()});
+                               return static_cast<int>(GSL_SUCCESS);
+                             },
+                             nullptr, x_.size(), this};
+    const std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)> driver(
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, t - t_, tolerance, tolerance),
+        gsl_odeiv2_driver_free);
+    double now = t_;
+    if (gsl_odeiv2_driver_apply(driver.get(), &now, t, x_.data()) != GSL_SUCCESS) {
+      throw std::domain_error(fmt::format("the flow x' = b(x) cannot be integrated from t = {} to {}", t_, t));
+    }
   }
   t_ = t;
   return x_;

@@ -1,11 +1,10 @@
 #include "reports/orders.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_fit.h>
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
@@ -36,21 +35,22 @@ constexpr NamedVerdict names[] = {
 constexpr double round_off = 1e-12;
 
 struct Line {
-  double intercept, slope, residual;  ///< residual: sum of squares
+  double slope, slope_variance, residual;  ///< residual: sum of squares
 };
 
-/// Least squares of y = intercept + slope x.
-Line fit_line(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
-  Eigen::MatrixXd A(x.size(), 2);
-  A << Eigen::VectorXd::Ones(x.size()), x;
-  const Eigen::VectorXd p = A.colPivHouseholderQr().solve(y);
-  return {p[0], p[1], (A * p - y).squaredNorm()};
+/// Least squares of log(error) over log(variable).
+Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
+  double intercept, slope, cov00, cov01, cov11, residual;
+  gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &cov00, &cov01, &cov11, &residual);
+  return {slope, cov11, residual};
 }
 
-/// p of error = C v^p (1 + D v): for a given D a line in logarithms; D by a scan and Brent's minimization.
-double extrapolated_order(const Eigen::VectorXd& v, const Eigen::VectorXd& log_v, const Eigen::VectorXd& log_e) {
+/// p of error = C v^p (1 + D v / v_0), v_0 the coarsest level: for a given D a line in logarithms; D by a scan and
+/// Brent's minimization.
+double extrapolated_order(const std::vector<double>& log_v, const std::vector<double>& log_e) {
   const auto fit = [&](double D) {
-    const Eigen::VectorXd corrected = log_e.array() - (D * v / v.maxCoeff()).array().log1p();
+    std::vector<double> corrected = log_e;
+    for (std::size_t i = 0; i < corrected.size(); ++i) corrected[i] -= std::log1p(D * std::exp(log_v[i] - log_v[0]));
     return fit_line(log_v, corrected);
   };
   constexpr double lowest = -0.95, highest = 20.0;
@@ -68,7 +68,11 @@ double extrapolated_order(const Eigen::VectorXd& v, const Eigen::VectorXd& log_v
   return fit(D).slope;
 }
 
-std::string listed(const std::vector<double>& orders) { return fmt::format("{:.2f}", fmt::join(orders, ", ")); }
+std::string listed(const std::vector<double>& orders) {
+  std::string text;
+  for (const double order : orders) text += fmt::format("{}{:.2f}", text.empty() ? "" : ", ", order);
+  return text;
+}
 
 /// Sets verdict and reason where the levels themselves allow no order.
 bool judge_levels(std::span<const Level> levels, Judgement& result) {
@@ -204,22 +208,19 @@ Judgement judge(std::span<const Level> levels, double theory_order) {
     return std::isfinite(level.error) && level.error > 0.0 && std::isfinite(level.variable) && level.variable > 0.0;
   });
   if (fittable && levels.size() >= 3) {
-    const auto n = static_cast<Eigen::Index>(levels.size());
-    Eigen::VectorXd v(n), log_v(n), log_e(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      v[i] = levels[i].variable;
-      log_v[i] = std::log(levels[i].variable);
-      log_e[i] = std::log(levels[i].error);
+    std::vector<double> log_v, log_e;
+    for (const Level& level : levels) {
+      log_v.push_back(std::log(level.variable));
+      log_e.push_back(std::log(level.error));
     }
-    const double spread = (log_v.array() - log_v.mean()).square().sum();
-    if (spread > 0.0) {
+    if (*std::max_element(log_v.begin(), log_v.end()) > *std::min_element(log_v.begin(), log_v.end())) {
       const Line line = fit_line(log_v, log_e);
-      const double t = boost::math::quantile(boost::math::students_t(static_cast<double>(n - 2)), 0.975);
-      const double half_width = t * std::sqrt(line.residual / static_cast<double>(n - 2) / spread);
+      const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(levels.size() - 2));
+      const double half_width = t * std::sqrt(line.slope_variance);
       result.order = line.slope;
       result.low = line.slope - half_width;
       result.high = line.slope + half_width;
-      if (n >= 4) result.extrapolated = extrapolated_order(v, log_v, log_e);
+      if (levels.size() >= 4) result.extrapolated = extrapolated_order(log_v, log_e);
     }
   }
   if (!judged) judge_order(levels, theory_order, result);

@@ -3,24 +3,21 @@
 /// @file
 /// The gate: judges result files again and compares with what their studies expect.
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "reports/orders.hpp"
+#include "studies/result_json.hpp"
 
 namespace acstudy {
 
 /// A series of a result file, judged from the errors in the file; what the file says of itself is only compared.
 struct CheckedSeries {
-  std::string study, label;
+  SeriesRecord record;
   Judgement judgement;
-  Verdict expected;
-  std::string stored_verdict;
-  std::size_t cases = 0, cases_planned = 0;
 
+  bool complete() const { return record.levels.size() == record.cases_planned; }
   bool passes() const {
-    return meets(judgement.verdict, expected) && stored_verdict == name_of(judgement.verdict) && cases == cases_planned;
+    return complete() && record.verdict == name_of(judgement.verdict) && meets(judgement.verdict, record.expected);
   }
   /// Why it does not pass, or the reason of the verdict.
   std::string remark() const;

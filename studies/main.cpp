@@ -110,7 +110,8 @@ int check(const std::vector<std::string>& files) {
   }
   std::size_t departing = 0;
   for (const CheckedSeries& series : all) {
-    print_row(series.passes(), series.study, series.label, series.judgement, series.expected, series.remark());
+    print_row(series.passes(), series.record.study, series.record.label, series.judgement, series.record.expected,
+              series.remark());
     departing += series.passes() ? 0 : 1;
   }
   fmt::print("{} series, {} as expected, {} departing\n", all.size(), all.size() - departing, departing);

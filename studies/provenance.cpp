@@ -1,7 +1,6 @@
 #include "studies/provenance.hpp"
 
 #include <H5public.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <gsl/gsl_version.h>
 #include <muParser.h>
@@ -27,6 +26,13 @@ std::string processor() {
   return "unknown processor";
 }
 
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
 }  // namespace
 
 std::string numerics_fingerprint() {
@@ -49,7 +55,7 @@ Provenance collect_provenance(int jobs, const std::string& command) {
       {"libraries", libraries},
       {"machine", processor()},
       {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
-      {"created", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+      {"created", utc_now()},
       {"jobs", std::to_string(jobs)},
       {"command", command},
   };

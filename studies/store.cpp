@@ -6,18 +6,16 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "studies/h5.hpp"
+#include "studies/result_json.hpp"
 
 namespace acstudy {
 
 namespace {
 
 namespace fs = std::filesystem;
-using json = nlohmann::ordered_json;
 
 constexpr const char* format = "acstudy-1";
 
@@ -50,15 +48,6 @@ const Columns<std::int64_t>& count_columns() {
   return columns;
 }
 
-/// The cases of a series that have a result.
-std::vector<std::size_t> completed(const SeriesResult& series) {
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < series.results.size(); ++i) {
-    if (series.results[i].completed) indices.push_back(i);
-  }
-  return indices;
-}
-
 void write_series(hid_t parent, const std::string& group_name, const Study& study, const SeriesResult& result) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
@@ -87,7 +76,7 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
   h5::write_column<double>(group, "pairwise", result.judgement.pairwise);
 
-  const auto indices = completed(result);
+  const auto indices = result.completed();
   const auto column = [&]<class T>(const char* name, const std::function<T(std::size_t)>& value) {
     std::vector<T> values;
     for (const std::size_t i : indices) values.push_back(value(i));
@@ -144,97 +133,6 @@ void write_h5(const fs::path& file, const Study& study, const std::vector<Series
   h5::check(H5Fflush(root, H5F_SCOPE_GLOBAL), "flush " + file.string());
 }
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
-json to_json(const Study& study, const SeriesResult& result) {
-  const Series& series = *result.series;
-  const Judgement& judgement = result.judgement;
-  json out;
-  out["model"] = series.scheme.model;
-  out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
-  out["kernel"] = series.scheme.kernel.name;
-  if (series.scheme.kernel.name == "power") out["alpha"] = series.scheme.kernel.alpha;
-  if (series.scheme.model == 2) out["mu"] = series.cases.front().mu;
-  out["path"] = series.path;
-  out["delta"] = series.delta_text;
-  out["source"] = series.nonlocal_source ? "nonlocal" : "local";
-  out["integrator"] = study.integrator->name;
-  out["step"] = study.step_text;
-  out["motion"] = study.scene->standing() ? "standing" : "moving";
-  out["theory"] = {
-      {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
-  json pairwise = json::array();
-  for (const double order : judgement.pairwise) pairwise.push_back(number(order));
-  out["observed"] = {{"order", number(judgement.order)},
-                     {"low", number(judgement.low)},
-                     {"high", number(judgement.high)},
-                     {"extrapolated", number(judgement.extrapolated)},
-                     {"pairwise", pairwise}};
-  out["verdict"] = name_of(judgement.verdict);
-  out["expected"] = name_of(series.expected);
-  out["as_expected"] = result.as_expected();
-  out["reason"] = judgement.reason;
-  out["cases_planned"] = series.cases.size();
-  out["cases"] = json::array();
-  for (const std::size_t i : completed(result)) {
-    const Case& c = series.cases[i];
-    const CaseResult& r = result.results[i];
-    json one = {{"N", c.N},
-                {"h", c.h},
-                {"delta", c.delta},
-                {"dt", c.dt},
-                {"steps", c.steps},
-                {"error_linf", number(r.error_linf)},
-                {"error_l1", number(r.error_l1)},
-                {"error_l2", number(r.error_l2)},
-                {"seconds", r.seconds},
-                {"seconds_low", r.seconds_low},
-                {"seconds_high", r.seconds_high},
-                {"repeats", r.repeats},
-                {"source_seconds", r.source_seconds},
-                {"work",
-                 {{"pairs", r.work.pairs},
-                  {"weight_builds", r.work.weight_builds},
-                  {"quadrature_points", r.quadrature_points},
-                  {"velocity_evaluations", r.work.velocity_evaluations},
-                  {"flow_evaluations", r.flow_evaluations}}}};
-    if (!r.failure.empty()) one["failure"] = r.failure;
-    out["cases"].push_back(one);
-  }
-  return out;
-}
-
-/// JSON text with every real number at 17 significant digits; the library writes the fewest that read back the same.
-std::string pretty(const json& value, int depth = 0) {
-  const std::string inner(static_cast<std::size_t>(depth) * 2 + 2, ' '),
-      outer(static_cast<std::size_t>(depth) * 2, ' ');
-  const bool leaves = std::none_of(value.begin(), value.end(), [](const json& item) { return item.is_structured(); });
-  const std::string separator = leaves ? ", " : ",\n" + inner, open = leaves ? " " : "\n" + inner,
-                    close = leaves ? " " : "\n" + outer;
-  if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
-  if (!value.is_structured() || value.empty()) return value.dump();
-  std::string text;
-  for (const auto& [key, item] : value.items()) {
-    text += text.empty() ? "" : separator;
-    if (value.is_object()) text += json(key).dump() + ": ";
-    text += pretty(item, depth + 1);
-  }
-  return value.is_object() ? "{" + open + text + close + "}" : "[" + open + text + close + "]";
-}
-
-void write_json(const fs::path& file, const Study& study, const std::vector<SeriesResult>& all,
-                const Provenance& provenance) {
-  json root = {{"study", study.name}, {"title", study.title}};
-  root["provenance"] = json::object();
-  for (const auto& [name, value] : provenance) root["provenance"][name] = value;
-  root["series"] = json::array();
-  for (const SeriesResult& series : all) root["series"].push_back(to_json(study, series));
-  std::ofstream out(file, std::ios::binary);
-  out << pretty(root) << '\n';
-  out.close();
-  if (!out) throw StoreError(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
-}
-
 /// Runs `write` on a temporary file beside `file`, then puts it in place in one step.
 template <class Write>
 void replace_atomically(const fs::path& file, Write&& write) {
@@ -258,6 +156,14 @@ void replace_atomically(const fs::path& file, Write&& write) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> SeriesResult::completed() const {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].completed) indices.push_back(i);
+  }
+  return indices;
+}
 
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results) {
   std::vector<Level> levels;

@@ -26,6 +26,8 @@ struct SeriesResult {
   const Series* series;
   std::vector<CaseResult> results;
   Judgement judgement;
+  /// Indices of the cases that have a result.
+  std::vector<std::size_t> completed() const;
   bool as_expected() const { return meets(judgement.verdict, series->expected); }
 };
 

@@ -1,0 +1,33 @@
+#pragma once
+
+/// @file
+/// The JSON form of a study's results: written, and read back for the gate.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studies/store.hpp"
+
+namespace acstudy {
+
+/// Writes the results of a study without the fields; real numbers at 17 significant digits, null for what is not
+/// finite.
+/// @throws StoreError
+void write_json(const std::filesystem::path& file, const Study& study, const std::vector<SeriesResult>& series,
+                const Provenance& provenance);
+
+/// What a result file says of one series.
+struct SeriesRecord {
+  std::string study, label;
+  std::vector<Level> levels;
+  double theory_order;
+  Verdict expected;
+  std::string verdict;
+  std::size_t cases_planned;
+};
+
+/// @throws InputError if the file is no result file, or has no series
+std::vector<SeriesRecord> read_json(const std::string& file);
+
+}  // namespace acstudy

@@ -17,7 +17,7 @@ build  C++20          @compiler                                     g++         
 build  CMake          @cmake                                        cmake               cmake             cmake            cmake
 build  pkg-config     pkg-config                                    pkgconf             pkgconf           pkg-config       pkgconf-pkg-config
 build  GSL            gsl/gsl_version.h                             libgsl-dev          gsl               gsl              gsl-devel
-build  Boost          boost/numeric/odeint.hpp                      libboost-dev        boost             libboost-headers boost-devel
+build  Boost          boost/math/quadrature/tanh_sinh.hpp           libboost-dev        boost             libboost-headers boost-devel
 build  Eigen          Eigen/Core                                    libeigen3-dev       eigen             eigen            eigen3-devel
 build  HDF5           hdf5.h                                        libhdf5-dev         hdf5              hdf5             hdf5-devel
 build  muParser       muParser.h                                    libmuparser-dev     muparser          muparser         muParser-devel

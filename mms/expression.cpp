@@ -301,7 +301,7 @@ void Expression::evaluate(std::span<const double> x, std::initializer_list<doubl
   if (workspace.value.size() < nodes) workspace.value.resize(nodes);
   if (first && workspace.by_first.size() < nodes) workspace.by_first.resize(nodes);
   if (second && workspace.by_second.size() < nodes) workspace.by_second.resize(nodes);
-  auto& [value, by_first, by_second] = workspace;
+  auto &value = workspace.value, &by_first = workspace.by_first, &by_second = workspace.by_second;
 
   const auto derive = [&](std::size_t i, unsigned direction, std::vector<Block>& derivative, std::size_t n) {
     const Node& node = tape_[i];

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 
 #include "studies/h5.hpp"
 #include "studies/result_json.hpp"
@@ -19,34 +18,32 @@ namespace fs = std::filesystem;
 
 constexpr const char* format = "acstudy-1";
 
-/// The scalar results of a case, by the name of their column in HDF5.
-template <class T>
-using Columns = std::vector<std::pair<const char*, std::function<T&(CaseResult&)>>>;
-
-const Columns<double>& real_columns() {
-  static const Columns<double> columns = {
-      {"error_linf", [](CaseResult& r) -> double& { return r.error_linf; }},
-      {"error_l1", [](CaseResult& r) -> double& { return r.error_l1; }},
-      {"error_l2", [](CaseResult& r) -> double& { return r.error_l2; }},
-      {"seconds", [](CaseResult& r) -> double& { return r.seconds; }},
-      {"seconds_low", [](CaseResult& r) -> double& { return r.seconds_low; }},
-      {"seconds_high", [](CaseResult& r) -> double& { return r.seconds_high; }},
-      {"source_seconds", [](CaseResult& r) -> double& { return r.source_seconds; }},
-  };
-  return columns;
+/// Visits the scalar results of a case with the names of their columns.
+template <class Result, class Visit>
+void for_each_column(Result& result, Visit&& visit) {
+  visit("error_linf", result.error_linf);
+  visit("error_l1", result.error_l1);
+  visit("error_l2", result.error_l2);
+  visit("seconds", result.seconds);
+  visit("seconds_low", result.seconds_low);
+  visit("seconds_high", result.seconds_high);
+  visit("source_seconds", result.source_seconds);
+  visit("repeats", result.repeats);
+  visit("work_pairs", result.work.pairs);
+  visit("work_weight_builds", result.work.weight_builds);
+  visit("work_quadrature_points", result.quadrature_points);
+  visit("work_velocity_evaluations", result.work.velocity_evaluations);
+  visit("work_flow_evaluations", result.flow_evaluations);
 }
 
-const Columns<std::int64_t>& count_columns() {
-  static const Columns<std::int64_t> columns = {
-      {"repeats", [](CaseResult& r) -> std::int64_t& { return r.repeats; }},
-      {"work_pairs", [](CaseResult& r) -> std::int64_t& { return r.work.pairs; }},
-      {"work_weight_builds", [](CaseResult& r) -> std::int64_t& { return r.work.weight_builds; }},
-      {"work_quadrature_points", [](CaseResult& r) -> std::int64_t& { return r.quadrature_points; }},
-      {"work_velocity_evaluations", [](CaseResult& r) -> std::int64_t& { return r.work.velocity_evaluations; }},
-      {"work_flow_evaluations", [](CaseResult& r) -> std::int64_t& { return r.flow_evaluations; }},
-  };
-  return columns;
-}
+/// Columns of a series by name, real numbers and counts.
+struct Columns {
+  std::map<std::string, std::vector<double>> real;
+  std::map<std::string, std::vector<std::int64_t>> count;
+
+  std::vector<double>& of(const std::string& name, double) { return real[name]; }
+  std::vector<std::int64_t>& of(const std::string& name, std::int64_t) { return count[name]; }
+};
 
 void write_series(hid_t parent, const std::string& group_name, const Study& study, const SeriesResult& result) {
   const Series& series = *result.series;
@@ -77,25 +74,24 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   h5::write_column<double>(group, "pairwise", result.judgement.pairwise);
 
   const auto indices = result.completed();
-  const auto column = [&]<class T>(const char* name, const std::function<T(std::size_t)>& value) {
-    std::vector<T> values;
-    for (const std::size_t i : indices) values.push_back(value(i));
-    h5::write_column<T>(group, name, values);
+  Columns columns;
+  const auto visit = [&series](const Case& c, const CaseResult& r, auto&& column) {
+    column("N", c.N);
+    column("steps", c.steps);
+    column("h", c.h);
+    column("delta", c.delta);
+    column("dt", c.dt);
+    column("variable", series.variable(c.h, c.delta));
+    for_each_column(r, column);
   };
-  using Count = std::function<std::int64_t(std::size_t)>;
-  using Real = std::function<double(std::size_t)>;
-  column("N", Count([&](std::size_t i) { return series.cases[i].N; }));
-  column("steps", Count([&](std::size_t i) { return series.cases[i].steps; }));
-  column("h", Real([&](std::size_t i) { return series.cases[i].h; }));
-  column("delta", Real([&](std::size_t i) { return series.cases[i].delta; }));
-  column("dt", Real([&](std::size_t i) { return series.cases[i].dt; }));
-  column("variable", Real([&](std::size_t i) { return series.variable(series.cases[i].h, series.cases[i].delta); }));
-  for (const auto& [name, member] : real_columns()) {
-    column(name, Real([&](std::size_t i) { return member(const_cast<CaseResult&>(result.results[i])); }));
+  // Without a completed case the columns are there all the same, and empty.
+  visit(series.cases.front(), CaseResult{}, [&](const char* name, auto value) { columns.of(name, value); });
+  for (const std::size_t i : indices) {
+    visit(series.cases[i], result.results[i],
+          [&](const char* name, auto value) { columns.of(name, value).push_back(value); });
   }
-  for (const auto& [name, member] : count_columns()) {
-    column(name, Count([&](std::size_t i) { return member(const_cast<CaseResult&>(result.results[i])); }));
-  }
+  for (const auto& [name, values] : columns.real) h5::write_column<double>(group, name, values);
+  for (const auto& [name, values] : columns.count) h5::write_column<std::int64_t>(group, name, values);
 
   const h5::Handle cases = h5::create_group(group, "cases");
   for (const std::size_t i : indices) {
@@ -195,13 +191,13 @@ StoredCases load_cases(const fs::path& file) {
       const h5::Handle group = h5::open_group(all, name), cases = h5::open_group(group, "cases");
       const auto N = h5::read_column<std::int64_t>(group, "N");
       std::vector<CaseResult> results(N.size());
-      for (const auto& [column, member] : real_columns()) {
-        const auto values = h5::read_column<double>(group, column);
-        for (std::size_t i = 0; i < results.size(); ++i) member(results[i]) = values.at(i);
-      }
-      for (const auto& [column, member] : count_columns()) {
-        const auto values = h5::read_column<std::int64_t>(group, column);
-        for (std::size_t i = 0; i < results.size(); ++i) member(results[i]) = values.at(i);
+      Columns columns;
+      for (std::size_t i = 0; i < results.size(); ++i) {
+        for_each_column(results[i], [&]<class T>(const char* column, T& value) {
+          std::vector<T>& values = columns.of(column, T{});
+          if (values.empty()) values = h5::read_column<T>(group, column);
+          value = values.at(i);
+        });
       }
       for (std::size_t i = 0; i < results.size(); ++i) {
         const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));

@@ -14,7 +14,7 @@ configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release $(CMAKE_ARGS)
 # its own number of jobs, not that of the make which calls it
 compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
 
-.PHONY: help studies test check build format format-check clean compiled compiled-tests drawable
+.PHONY: help studies test check bench build format format-check clean compiled compiled-tests drawable
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -38,6 +38,11 @@ test:  ## builds and runs every test
 check: build  ## the gates: exit 1 if any verdict departs from what its study expects
 	@$(acstudy) run studies/*.toml --out "$(OUT)" --jobs $(JOBS) || [ $$? -eq 1 ]
 	@$(acstudy) check "$(OUT)"/*.json
+
+bench: build  ## error against run time with one case at a time, so that none disturbs another
+	@$(acstudy) run studies/*.toml --out "$(OUT)/bench" --jobs 1 --fresh
+	$(setup) report
+	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/bench"
 
 build:  ## builds acstudy
 	$(setup) build

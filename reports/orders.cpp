@@ -123,7 +123,8 @@ bool judge_levels(std::span<const Level> levels, Judgement& result) {
                       fmt::format("the error grows from {:.2g} to {:.2g}, like the variable to the power {:.1f}",
                                   smallest->error, last, -growth));
     }
-    if (last > first) {
+    const double overall = std::log(first / last) / std::log(levels.front().variable / levels.back().variable);
+    if (overall < -order_tolerance) {
       return conclude(Verdict::diverges,
                       fmt::format("the error grows from {:.2g} to {:.2g} under refinement", first, last));
     }
@@ -164,7 +165,7 @@ void judge_order(std::span<const Level> levels, double theory, Judgement& result
     return conclude(Verdict::confirmed,
                     fmt::format("{} and last pairwise order {:.2f} agree with theory's {:g}", fitted, last, theory));
   }
-  if (approaching && agrees(result.extrapolated)) {
+  if (approaching && std::abs(result.extrapolated - theory) <= extrapolation_tolerance) {
     return conclude(
         Verdict::pre_asymptotic,
         fmt::format("pairwise orders {} move toward {:g} and extrapolate to {:.2f}; the fitted {} is not there yet",
@@ -176,8 +177,8 @@ void judge_order(std::span<const Level> levels, double theory, Judgement& result
   }
   const double distance = agrees(last) ? result.order - theory : last - theory;
   conclude(distance < 0.0 ? Verdict::below : Verdict::above,
-           fmt::format("{}, theory says {:g}; pairwise orders {} do not approach it within {:g}", fitted, theory,
-                       listed(pairwise), order_tolerance));
+           fmt::format("{}, theory says {:g}; pairwise orders {}, extrapolated {:.2f}", fitted, theory,
+                       listed(pairwise), result.extrapolated));
 }
 
 }  // namespace

@@ -44,12 +44,14 @@ struct Judgement {
 
 /// How far an observed order may lie from theory's and still agree with it.
 inline constexpr double order_tolerance = 0.05;
+/// The same for an extrapolated order, which three parameters fitted to few levels leave less sharp.
+inline constexpr double extrapolation_tolerance = 0.1;
 
 /// Judges errors under refinement against theory's order.
 ///
 /// Confirmed means: the fitted order and the last pairwise order lie within `order_tolerance` of theory's.
 /// Pre-asymptotic means: they do not yet, but each pairwise order is closer to theory's than the one before, and the
-/// extrapolated order lies within the tolerance. Both bounds are two-sided. Nothing else passes: a level that is not
+/// extrapolated order lies within `extrapolation_tolerance`. Both bounds are two-sided. Nothing else passes: a level that is not
 /// finite, zero or negative, a growing error or fewer than three levels have verdicts of their own.
 ///
 /// @param levels        coarse to fine; the actual variable of each level, so any refinement ratio is right

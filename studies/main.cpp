@@ -88,6 +88,7 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   int status = done;
   for (const StudyResult& study : result.studies) {
     for (const SeriesResult& series : study.series) {
+      if (result.interrupted && series.completed().size() < series.results.size()) continue;
       print_row(series.as_expected(), study.study->name, series.series->label(study.study->scene->standing()),
                 series.judgement, series.series->expected, series.judgement.reason);
       if (series.as_expected()) continue;

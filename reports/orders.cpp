@@ -171,6 +171,11 @@ void judge_order(std::span<const Level> levels, double theory, Judgement& result
         fmt::format("pairwise orders {} move toward {:g} and extrapolate to {:.2f}; the fitted {} is not there yet",
                     listed(pairwise), theory, result.extrapolated, fitted));
   }
+  if (approaching && std::isnan(result.extrapolated)) {
+    return conclude(Verdict::inconclusive,
+                    fmt::format("pairwise orders {} move toward {:g}; to extrapolate them takes a fourth level",
+                                listed(pairwise), theory));
+  }
   if (last < 0.25 * theory) {
     return conclude(Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}",
                                                     levels.back().error, listed(pairwise)));

@@ -57,8 +57,7 @@ std::string explain(const Study& study) {
 
   std::size_t count = 0;
   for (const Series& series : study.series) {
-    out += fmt::format("\n{}, source {}\n", series.label(study.scene->standing()),
-                       series.nonlocal_source ? "nonlocal" : "local");
+    out += fmt::format("\n{}, source {}\n", series.label(), series.nonlocal_source ? "nonlocal" : "local");
     if (series.nonlocal_source) out += fmt::format("  source by {}\n", text(study.source_rule));
     if (series.theory.order > 0.0) {
       out += fmt::format("  theory: order {:g} in {} ({})\n", series.theory.order, series.theory.variable,

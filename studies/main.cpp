@@ -69,13 +69,27 @@ std::string interval(const Judgement& judgement) {
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", judgement.order, judgement.low, judgement.high);
 }
 
-void print_row(bool passes, std::string_view study, std::string_view series, const Judgement& judgement,
-               Verdict expected, std::string_view remark) {
-  fmt::print("{:<6} {:<12} {:<58} {:<20} {:<15}", passes ? "ok" : "DEPART", study, series, interval(judgement),
-             name_of(judgement.verdict));
-  if (!passes && expected != judgement.verdict) fmt::print(" expected {}", name_of(expected));
-  if (!passes) fmt::print("; {}", remark);
-  fmt::print("\n");
+/// A line of the table that `run` and `check` print.
+struct Row {
+  bool passes;
+  std::string study, series;
+  Judgement judgement;
+  Verdict expected;
+  std::string remark;
+};
+
+void print_table(const std::vector<Row>& rows) {
+  std::size_t study_width = 0, series_width = 0;
+  for (const Row& row : rows) {
+    study_width = std::max(study_width, row.study.size());
+    series_width = std::max(series_width, row.series.size());
+  }
+  for (const Row& row : rows) {
+    fmt::print("{:<6}  {:<{}}  {:<{}}  {:<20}  {}", row.passes ? "ok" : "DEPART", row.study, study_width, row.series,
+               series_width, interval(row.judgement), name_of(row.judgement.verdict));
+    if (!row.passes) fmt::print(", expected {}: {}", name_of(row.expected), row.remark);
+    fmt::print("\n");
+  }
 }
 
 int run(const std::vector<std::string>& files, RunOptions options) {
@@ -86,15 +100,19 @@ int run(const std::vector<std::string>& files, RunOptions options) {
 
   const RunResult result = run_studies(studies, options, stop);
   int status = done;
+  std::vector<Row> rows;
   for (const StudyResult& study : result.studies) {
     for (const SeriesResult& series : study.series) {
       if (result.interrupted && series.completed().size() < series.results.size()) continue;
-      print_row(series.as_expected(), study.study->name, series.series->label(study.study->scene->standing()),
-                series.judgement, series.series->expected, series.judgement.reason);
-      if (series.as_expected()) continue;
-      status = std::max<int>(status, series.judgement.verdict == Verdict::unstable ? numerical_failure : departs);
+      const bool passes = series.as_expected();
+      rows.push_back({passes, study.study->name, series.series->label(), series.judgement, series.series->expected,
+                      series.judgement.reason});
+      if (!passes) {
+        status = std::max<int>(status, series.judgement.verdict == Verdict::unstable ? numerical_failure : departs);
+      }
     }
   }
+  print_table(rows);
   fmt::print("{} cases computed, {} taken from the store; results in {}\n", result.computed, result.reused,
              options.out.string());
   if (result.interrupted) {
@@ -105,17 +123,17 @@ int run(const std::vector<std::string>& files, RunOptions options) {
 }
 
 int check(const std::vector<std::string>& files) {
-  std::vector<CheckedSeries> all;
-  for (const std::string& file : files) {
-    for (CheckedSeries& series : check_file(file)) all.push_back(std::move(series));
-  }
+  std::vector<Row> rows;
   std::size_t departing = 0;
-  for (const CheckedSeries& series : all) {
-    print_row(series.passes(), series.record.study, series.record.label, series.judgement, series.record.expected,
-              series.remark());
-    departing += series.passes() ? 0 : 1;
+  for (const std::string& file : files) {
+    for (const CheckedSeries& series : check_file(file)) {
+      rows.push_back({series.passes(), series.record.study, series.record.label, series.judgement,
+                      series.record.expected, series.remark()});
+      departing += series.passes() ? 0 : 1;
+    }
   }
-  fmt::print("{} series, {} as expected, {} departing\n", all.size(), all.size() - departing, departing);
+  print_table(rows);
+  fmt::print("{} series, {} as expected, {} departing\n", rows.size(), rows.size() - departing, departing);
   return departing == 0 ? done : departs;
 }
 
@@ -200,7 +218,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "acstudy: {}; see acstudy --help\n", error.what());
+    const auto used = app.get_subcommands();
+    fmt::print(stderr, "acstudy: {}; see acstudy {}--help\n", error.what(),
+               used.empty() ? "" : used.front()->get_name() + " ");
     return bad_input;
   }
 

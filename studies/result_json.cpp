@@ -108,9 +108,9 @@ SeriesRecord from_json(const std::string& study, const json& series) {
   SeriesRecord record;
   record.study = study;
   const bool standing = series.value("motion", "moving") == "standing";
-  record.label = fmt::format("{}{}, {}, {}", series.at("model") == 1 ? "Model I" : "Model II",
-                             standing ? "" : ", " + series.at("divergence").get<std::string>() + " divergence",
-                             series.at("kernel").get<std::string>(), series.at("path").get<std::string>());
+  const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
+  record.label = series_label(series.at("model").get<int>(), standing, series.at("divergence") == "nonlocal", kernel,
+                              series.at("path").get<std::string>());
   const json& theory = series.at("theory");
   const bool by_h = theory.at("variable") == "h";
   for (const json& one : series.at("cases")) {
@@ -149,8 +149,12 @@ std::vector<SeriesRecord> read_json(const std::string& file) {
   try {
     const json root = json::parse(in);
     for (const json& series : root.at("series")) all.push_back(from_json(root.at("study").get<std::string>(), series));
+  } catch (const json::parse_error& error) {
+    throw InputError(
+        fmt::format("{}: not JSON, from byte {} on; name a .json file that acstudy run has written", file, error.byte));
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: not a result file of acstudy: {}", file, error.what()));
+    throw InputError(fmt::format(
+        "{}: not a result file of acstudy ({}); name a .json file that acstudy run has written", file, error.what()));
   }
   if (all.empty())
     throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));

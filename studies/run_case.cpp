@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <new>
+#include <stdexcept>
 
 #include "solver/model1.hpp"
 #include "solver/model2.hpp"
@@ -22,10 +22,12 @@ std::unique_ptr<Source> make_source(const Case& c, KernelProfile kernel) {
 template <class Motion, class Divergence, class K>
 CaseResult run_scheme(const Case& c, const K& kernel, const std::atomic<bool>& stop) {
   const auto source = make_source(c, profile(kernel));
+  if (c.scheme.model == 1) return advance<Motion>(c, ModelI<K, Divergence>(kernel), *source, stop);
   if constexpr (IntegrableKernel<K>) {
-    if (c.scheme.model == 2) return advance<Motion>(c, ModelII<K, Divergence>(kernel, c.mu), *source, stop);
+    return advance<Motion>(c, ModelII<K, Divergence>(kernel, c.mu), *source, stop);
+  } else {
+    throw std::logic_error("Model II with a kernel that is not integrable");
   }
-  return advance<Motion>(c, ModelI<K, Divergence>(kernel), *source, stop);
 }
 
 template <class K>
@@ -39,8 +41,19 @@ CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
   const KernelChoice& kernel = c.scheme.kernel;
   if (kernel.name == "inverse") return run_kernel(c, InverseKernel{}, stop);
   if (kernel.name == "cubic-spline") return run_kernel(c, CubicSplineKernel{}, stop);
-  if (c.scheme.model == 2) return run_kernel(c, IntegrablePowerKernel(kernel.alpha), stop);
-  return run_kernel(c, PowerKernel(kernel.alpha), stop);
+  if (kernel.name == "power" && kernel.alpha < 1.0) return run_kernel(c, IntegrablePowerKernel(kernel.alpha), stop);
+  if (kernel.name == "power") return run_kernel(c, PowerKernel(kernel.alpha), stop);
+  throw std::logic_error("no kernel is named " + kernel.name);
+}
+
+/// A case that cannot be run to its end for a numerical reason; whatever else goes wrong is not its fault and goes up.
+CaseResult failed(const std::string& reason) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  CaseResult result;
+  result.completed = true;
+  result.failure = reason;
+  result.error_linf = result.error_l1 = result.error_l2 = none;
+  return result;
 }
 
 }  // namespace
@@ -55,12 +68,10 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop) {
   do {
     try {
       result = run_once(c, stop);
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      result.failure = error.what();
-      result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
-      result.completed = true;
+    } catch (const std::domain_error& error) {
+      result = failed(error.what());
+    } catch (const std::runtime_error& error) {
+      result = failed(error.what());
     }
     if (!result.completed) return result;
     seconds.push_back(result.seconds);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -168,9 +169,9 @@ Judgement judge_series(const Series& series, const std::vector<CaseResult>& resu
     if (results[i].completed) levels.push_back({series.variable(c.h, c.delta), results[i].error_linf});
   }
   Judgement judgement = judge(levels, series.theory.order);
-  for (const CaseResult& result : results) {
-    if (!result.failure.empty()) judgement.reason += ": " + result.failure;
-  }
+  const auto failed =
+      std::find_if(results.begin(), results.end(), [](const CaseResult& result) { return !result.failure.empty(); });
+  if (failed != results.end()) judgement.reason += ": " + failed->failure;
   return judgement;
 }
 

@@ -389,10 +389,15 @@ double Case::estimated_work() const {
 
 double Case::cfl() const { return scheme.model == 1 ? dt * scene->max_relative_velocity() / h : 2.0 * dt * mu / h; }
 
-std::string Series::label(bool standing) const {
-  std::string text = scheme.model == 1 ? "Model I" : "Model II";
-  if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
-  return fmt::format("{}, {}, {}", text, scheme.kernel.label(), path);
+std::string series_label(int model, bool standing, bool nonlocal_divergence, const KernelChoice& kernel,
+                         const std::string& path) {
+  std::string text = model == 1 ? "Model I" : "Model II";
+  if (!standing) text += nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
+  return fmt::format("{}, {}, {}", text, kernel.label(), path);
+}
+
+std::string Series::label() const {
+  return series_label(scheme.model, cases.front().scene->standing(), scheme.nonlocal_divergence, scheme.kernel, path);
 }
 
 Study parse_study(const std::string& text, const std::string& file) {

@@ -85,9 +85,12 @@ struct Series {
 
   /// Value of theory's variable at a case.
   double variable(double h, double delta) const { return theory.variable == "h" ? h : std::max(h, delta); }
-  /// "Model I, local divergence, inverse, delta = 4h".
-  std::string label(bool standing) const;
+  std::string label() const;
 };
+
+/// "Model I, local divergence, inverse, delta = 4h"; the divergence is left out where particles stand still.
+std::string series_label(int model, bool standing, bool nonlocal_divergence, const KernelChoice& kernel,
+                         const std::string& path);
 
 struct Study {
   std::string file, text;

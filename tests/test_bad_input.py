@@ -391,7 +391,8 @@ class BadUsage(ProgramTest):
                                  (("--frobnicate",), "--frobnicate"),
                                  (("run",), "STUDY.toml"), (("check",), "FILE.json"), (("explain",), "STUDY.toml"),
                                  ((*run, "--jobs", "0"), "--jobs: Value 0"),
-                                 ((*run, "--jobs", "-1"), "--jobs: Value -1"), ((*run, "--jobs", "1.5"), "1.5"), ((*run, "--jobs", "two"), "two"),
+                                 ((*run, "--jobs", "-1"), "--jobs: Value -1"),
+                                 ((*run, "--jobs", "1.5"), "1.5"), ((*run, "--jobs", "two"), "two"),
                                  ((*run, "--jobs", "1000000"), "1000000"), ((*run, "--jobs"), "--jobs"),
                                  ((*run, "--frobnicate"), "--frobnicate"), (("list", "colors"), "colors"),
                                  (("list", "scenes", "kernels"), "kernels")):

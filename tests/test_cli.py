@@ -247,8 +247,11 @@ class Results(ProgramTest):
         self.assertEqual(one, two)
         self.assertTrue(any(name.endswith("/u") for name in one))
         self.assertTrue(any(name.endswith("/work_pairs") for name in one))
-        self.run_study(edit(WIDE, ("mu = 1.5", "mu = 1.5000000001")))
-        self.assertNotEqual(one, numbers(self.folder / "out" / "tiny.h5"))
+        # The comparison sees a change in the tenth digit of one input.
+        self.assert_counts(self.run_study(edit(WIDE, ("mu = 1.5", "mu = 1.5000000001"))), 7, 14)
+        changed = numbers(self.folder / "out" / "tiny.h5")
+        self.assertEqual({name for name in one if name.endswith("/u") and one[name] != changed[name]},
+                         {name for name in one if re.fullmatch(r"series/00[678]/cases/\d+/u", name)})
 
 
 class Reuse(ProgramTest):

@@ -1,0 +1,96 @@
+"""The built program, run on study files in a temporary folder."""
+
+import json
+import os
+from pathlib import Path
+import subprocess
+import tempfile
+import unittest
+
+ROOT = Path(__file__).resolve().parent.parent
+ACSTUDY = Path(os.environ.get("ACSTUDY", ROOT / "build" / "acstudy")).resolve()
+
+STUDY = """\
+[study]
+name = "tiny"
+title = "A tiny study"
+
+[scene]
+use = "lee-du-2019"
+
+[[scheme]]
+model = 1
+divergence = "local"
+kernel = "inverse"
+
+[time]
+integrator = "forward-euler"
+step = "h/4"
+
+[[path]]
+name = "delta = 4h"
+delta = "4*h"
+N = [16, 32, 64]
+source = "local"
+"""
+
+USE = 'use = "lee-du-2019"'
+FIELDS = """\
+period = "2*pi"
+T = 1
+c = "cos(2*x)/3"
+b = "sin(x)"
+u = "cos(x-t)"
+flow = "2*atan2(sin(x/2)*exp(t), cos(x/2))\""""
+
+MODEL_II = ('model = 1\ndivergence = "local"\nkernel = "inverse"',
+            'model = 2\ndivergence = "local"\nkernel = "cubic-spline"')
+
+
+def edit(text, *changes):
+    """The text with each (old, new) replaced; every old must stand there exactly once."""
+    for old, new in changes:
+        if text.count(old) != 1:
+            raise ValueError(f"{old!r} stands {text.count(old)} times in\n{text}")
+        text = text.replace(old, new)
+    return text
+
+
+INLINE = edit(STUDY, (USE, FIELDS))
+
+
+class ProgramTest(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def write(self, name, text):
+        path = Path(self.folder, name)
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def acstudy(self, *arguments, **options):
+        """Runs the program in the temporary folder."""
+        return subprocess.run([ACSTUDY, *map(str, arguments)], cwd=self.folder, text=True, capture_output=True,
+                              check=False, timeout=60, **options)
+
+    def run_study(self, text, *arguments, out="out", expect=None, **options):
+        """Writes tiny.toml and runs it into `out`; `expect`: the exit code, any by default."""
+        self.write("tiny.toml", text)
+        done = self.acstudy("run", "tiny.toml", "--out", out, *arguments, **options)
+        if expect is not None:
+            self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
+        return done
+
+    def result(self, study="tiny", out="out", **options):
+        return json.loads((self.folder / out / f"{study}.json").read_text(encoding="utf-8"), **options)
+
+    def assert_counts(self, done, computed, stored):
+        self.assertIn(f"{computed} cases computed, {stored} taken from the store;", done.stdout, done.stderr)
+
+    def assert_bad_input(self, done, message):
+        """Exit code 2, this one line, and nothing else."""
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"acstudy: {message}\n"))

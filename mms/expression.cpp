@@ -81,8 +81,8 @@ std::string explain(const mu::ParserError& error, const std::vector<std::string>
         return "the function \"" + token + "\" needs its argument in parentheses";
       }
       std::string names;
-      for (const auto& name : variables) names += (names.empty() ? "" : ", ") + name;
-      return "unknown name \"" + token + "\"; it may use " + names + ", pi, e and the usual functions";
+      for (const auto& name : variables) names += name + ", ";
+      return "unknown name \"" + token + "\"; it may use " + names + "pi, e and the usual functions";
     }
     case mu::ecUNEXPECTED_EOF:
       return "the expression ends too early";
@@ -123,6 +123,9 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
   if (text.find_first_not_of(" \t\n\r") == std::string::npos) throw ExpressionError(0, "the expression is empty");
   if (const auto at = text.find_first_of("?:=<>!&|,;"); at != std::string::npos && text[at] != ',') {
     throw ExpressionError(at, std::string("unexpected \"") + text[at] + "\"; an expression has no conditions");
+  }
+  if (const auto at = text.find("**"); at != std::string::npos) {
+    throw ExpressionError(at, "unexpected \"**\"; write h^2 for a power");
   }
   recording = &tape_;
   for (std::size_t i = 0; i < variables.size(); ++i)
@@ -359,13 +362,11 @@ void Expression::evaluate(std::span<const double> x, std::initializer_list<doubl
 }
 
 double Expression::operator()(std::initializer_list<double> variables) const {
-  double value = 0.0;
-  const double x = variables.size() > 0 ? *variables.begin() : 0.0;
-  std::vector<double> v(variables);
-  double rest[3] = {0.0, 0.0, 0.0};
-  for (std::size_t i = 1; i < v.size(); ++i) rest[i - 1] = v[i];
-  evaluate({&x, 1}, {rest[0], rest[1], rest[2]}, {.value = {&value, 1}, .by_first = {}, .by_second = {}});
-  return value;
+  double values[4] = {0.0, 0.0, 0.0, 0.0}, value = 0.0;
+  std::copy(variables.begin(), variables.end(), values);
+  evaluate({values, 1}, {values[1], values[2], values[3]}, {.value = {&value, 1}, .by_first = {}, .by_second = {}});
+  // The sign of a NaN says nothing and differs between processors.
+  return std::isnan(value) ? std::abs(value) : value;
 }
 
 }  // namespace acstudy

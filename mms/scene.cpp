@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <numbers>
 
 namespace acstudy {
 
@@ -28,12 +29,13 @@ double positive_constant(const char* field, const std::string& text) {
   return value;
 }
 
-/// An odd number of cells, so that a field of a smaller period is not sampled at its own multiples only.
-constexpr int sample_count = 257;
-
+/// Points of the period in increasing order, at multiples of the golden ratio: no field of a smaller period is sampled
+/// at its own multiples only, however small that period is.
 std::vector<double> samples(double period) {
-  std::vector<double> x(sample_count);
-  for (int i = 0; i < sample_count; ++i) x[i] = period * i / sample_count;
+  constexpr int count = 257;
+  std::vector<double> x(count);
+  for (int i = 0; i < count; ++i) x[i] = period * std::fmod(i * std::numbers::phi, 1.0);
+  std::sort(x.begin(), x.end());
   return x;
 }
 
@@ -51,9 +53,9 @@ Scene::Scene(SceneText text)
     if (b_->is_constant() && (*b_)({0.0}) == 0.0) b_.reset();
   }
   if (text_.flow) {
-    if (!text_.b) throw SceneError("flow", 0, "a flow without b; particles stand still unless b is given");
+    if (!b_) throw SceneError("flow", 0, "a flow without b; particles stand still unless b is given");
     flow_ = compile("flow", *text_.flow, {"x", "t"});
-    if (b_) check_flow();
+    check_flow();
   }
   check_periodic("c", c_);
   check_periodic("u", u_);
@@ -70,7 +72,8 @@ void Scene::check_periodic(const char* field, const Expression& expression) cons
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!std::isfinite(here[i])) {
         throw SceneError(field, 0,
-                         fmt::format("{} is {} at x = {:.6g}; it must be finite everywhere", field, here[i], x[i]));
+                         fmt::format("{} is {} at x = {:.6g}; it must be finite everywhere", field,
+                                     std::isnan(here[i]) ? std::abs(here[i]) : here[i], x[i]));
       }
       scale = std::max(scale, std::abs(here[i]));
       gap = std::max(gap, std::abs(here[i] - there[i]));
@@ -155,6 +158,8 @@ std::span<const double> Trajectories::at(double t) {
     const std::unique_ptr<gsl_odeiv2_driver, decltype(&gsl_odeiv2_driver_free)> driver(
         gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, t - t_, tolerance, tolerance),
         gsl_odeiv2_driver_free);
+    // Between two stages a smooth flow takes one step or a few.
+    gsl_odeiv2_driver_set_nmax(driver.get(), 10000);
     double now = t_;
     if (gsl_odeiv2_driver_apply(driver.get(), &now, t, x_.data()) != GSL_SUCCESS) {
       throw std::domain_error(fmt::format("the flow x' = b(x) cannot be integrated from t = {} to {}", t_, t));

@@ -6,8 +6,10 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <set>
 #include <thread>
@@ -219,21 +221,32 @@ int main(int argc, char** argv) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     const auto used = app.get_subcommands();
+    if (used.empty() && argc > 1) {
+      fmt::print(stderr, "acstudy: unknown command \"{}\"; write run, check, explain or list; see acstudy --help\n",
+                 argv[1]);
+      return bad_input;
+    }
     fmt::print(stderr, "acstudy: {}; see acstudy {}--help\n", error.what(),
                used.empty() ? "" : used.front()->get_name() + " ");
     return bad_input;
   }
 
   try {
+    int status = done;
     if (*run_command) {
       options.out = out;
       for (int i = 0; i < argc; ++i) options.command += (i > 0 ? " " : "") + std::string(argv[i]);
-      return run(files, options);
+      status = run(files, options);
+    } else if (*check_command) {
+      status = check(files);
+    } else if (*list_command) {
+      status = list(what);
+    } else {
+      for (const Study& study : read_studies(files)) fmt::print("{}", explain(study));
     }
-    if (*check_command) return check(files);
-    if (*list_command) return list(what);
-    for (const Study& study : read_studies(files)) fmt::print("{}", explain(study));
-    return done;
+    if (std::fflush(stdout) != 0)
+      throw StoreError("cannot write to standard output: " + std::string(std::strerror(errno)));
+    return status;
   } catch (const InputError& error) {
     fmt::print(stderr, "acstudy: {}\n", error.what());
     return bad_input;

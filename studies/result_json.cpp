@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace acstudy {
 
@@ -76,6 +77,9 @@ json to_json(const Study& study, const SeriesResult& result) {
   return out;
 }
 
+/// A value as JSON; bytes that are no UTF-8, as a file name may have, are replaced.
+std::string as_json_text(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
 /// JSON text with every real number at 17 significant digits; the library writes the fewest that read back the same.
 std::string pretty(const json& value, int depth = 0) {
   const std::string inner(static_cast<std::size_t>(depth) * 2 + 2, ' '),
@@ -84,11 +88,11 @@ std::string pretty(const json& value, int depth = 0) {
   const std::string separator = leaves ? ", " : ",\n" + inner, open = leaves ? " " : "\n" + inner,
                     close = leaves ? " " : "\n" + outer;
   if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
-  if (!value.is_structured() || value.empty()) return value.dump();
+  if (!value.is_structured() || value.empty()) return as_json_text(value);
   std::string text;
   for (const auto& [key, item] : value.items()) {
     text += text.empty() ? "" : separator;
-    if (value.is_object()) text += json(key).dump() + ": ";
+    if (value.is_object()) text += as_json_text(key) + ": ";
     text += pretty(item, depth + 1);
   }
   return value.is_object() ? "{" + open + text + close + "}" : "[" + open + text + close + "]";
@@ -100,7 +104,7 @@ double real(const json& value) {
 
 Verdict verdict(const json& value) {
   const auto found = verdict_from(value.get<std::string>());
-  if (!found) throw InputError("unknown verdict " + value.dump());
+  if (!found) throw InputError("unknown verdict " + value.dump() + " in the result file");
   return *found;
 }
 
@@ -126,35 +130,30 @@ SeriesRecord from_json(const std::string& study, const json& series) {
 
 }  // namespace
 
-void write_json(const std::filesystem::path& file, const Study& study, const std::vector<SeriesResult>& all,
-                const Provenance& provenance) {
+std::string json_text(const Study& study, const std::vector<SeriesResult>& all, const Provenance& provenance) {
   json root = {{"study", study.name}, {"title", study.title}};
   root["provenance"] = json::object();
   for (const auto& [name, value] : provenance) root["provenance"][name] = value;
   root["series"] = json::array();
   for (const SeriesResult& series : all) root["series"].push_back(to_json(study, series));
-  std::ofstream out(file, std::ios::binary);
-  out << pretty(root) << '\n';
-  out.close();
-  if (!out) throw StoreError(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
+  return pretty(root) + "\n";
 }
 
 std::vector<SeriesRecord> read_json(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) {
-    throw InputError(
-        fmt::format("{}: cannot read the result file; name a .json file that acstudy run has written", file));
-  }
+  constexpr const char* remedy = "name a .json file that acstudy run has written";
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) throw InputError(fmt::format("{}: cannot read the result file; {}", file, remedy));
   std::vector<SeriesRecord> all;
   try {
-    const json root = json::parse(in);
+    const json root = json::parse(text.str());
     for (const json& series : root.at("series")) all.push_back(from_json(root.at("study").get<std::string>(), series));
   } catch (const json::parse_error& error) {
+    throw InputError(fmt::format("{}: not JSON, from byte {} on; {}", file, error.byte, remedy));
+  } catch (const json::exception& error) {
+    const std::string what = error.what();
     throw InputError(
-        fmt::format("{}: not JSON, from byte {} on; name a .json file that acstudy run has written", file, error.byte));
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format(
-        "{}: not a result file of acstudy ({}); name a .json file that acstudy run has written", file, error.what()));
+        fmt::format("{}: not a result file of acstudy: {}; {}", file, what.substr(what.find("] ") + 2), remedy));
   }
   if (all.empty())
     throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));

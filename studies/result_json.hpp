@@ -3,7 +3,6 @@
 /// @file
 /// The JSON form of a study's results: written, and read back for the gate.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,11 +10,8 @@
 
 namespace acstudy {
 
-/// Writes the results of a study without the fields; real numbers at 17 significant digits, null for what is not
-/// finite.
-/// @throws StoreError
-void write_json(const std::filesystem::path& file, const Study& study, const std::vector<SeriesResult>& series,
-                const Provenance& provenance);
+/// The results of a study without the fields; real numbers at 17 significant digits, null for what is not finite.
+std::string json_text(const Study& study, const std::vector<SeriesResult>& series, const Provenance& provenance);
 
 /// What a result file says of one series.
 struct SeriesRecord {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <unordered_map>
@@ -51,17 +52,38 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// What the studies' files hold: the cases of all of them together, the origin of each.
+struct Stores {
+  std::map<std::string, CaseResult> cases;
+  std::vector<Provenance> provenance;
+};
+
+Stores load_stores(const std::vector<Study>& studies, const RunOptions& options) {
+  Stores stores;
+  for (const Study& study : studies) {
+    StoredCases stored;
+    try {
+      stored = load_cases(options.out / (study.name + ".h5"));
+    } catch (const StoreError&) {
+      if (!options.fresh) throw;
+    }
+    stores.cases.merge(stored.cases);
+    stores.provenance.push_back(std::move(stored.provenance));
+  }
+  return stores;
+}
+
 }  // namespace
 
 RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop) {
   RunResult run;
+  const Stores stores = load_stores(studies, options);
   std::vector<Job> jobs;
   std::unordered_map<std::string, std::size_t> job_of;
   std::vector<std::size_t> open_cases;
   std::vector<Provenance> provenance;
   for (std::size_t s = 0; s < studies.size(); ++s) {
     const Study& study = studies[s];
-    StoredCases stored = options.fresh ? StoredCases{} : load_cases(options.out / (study.name + ".h5"));
     run.studies.push_back({&study, {}});
     open_cases.push_back(0);
     for (const Series& series : study.series) {
@@ -69,10 +91,13 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
       results.resize(series.cases.size());
       for (std::size_t i = 0; i < series.cases.size(); ++i) {
         const std::string key = storage_key(series.cases[i]);
-        if (const auto found = stored.cases.find(key); found != stored.cases.end()) {
+        if (const auto found = stores.cases.find(key); found != stores.cases.end()) {
+          // With --fresh it stands until the new result is there, so that an interruption loses nothing.
           results[i] = found->second;
-          ++run.reused;
-          continue;
+          if (!options.fresh) {
+            ++run.reused;
+            continue;
+          }
         }
         const auto [entry, is_new] = job_of.try_emplace(key, jobs.size());
         if (is_new) jobs.push_back({&series.cases[i], {}});
@@ -81,7 +106,8 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
       }
     }
     // A study of which nothing is computed keeps the origin of its numbers.
-    provenance.push_back(open_cases[s] == 0 ? stored.provenance : collect_provenance(options.jobs, options.command));
+    const bool untouched = open_cases[s] == 0 && !stores.provenance[s].empty();
+    provenance.push_back(untouched ? stores.provenance[s] : collect_provenance(options.jobs, options.command));
   }
   std::stable_sort(jobs.begin(), jobs.end(),
                    [](const Job& a, const Job& b) { return a.c->estimated_work() > b.c->estimated_work(); });

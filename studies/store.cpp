@@ -1,6 +1,5 @@
 #include "studies/store.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -106,10 +105,13 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   }
 }
 
-void write_h5(const fs::path& file, const Study& study, const std::vector<SeriesResult>& all,
-              const Provenance& provenance) {
-  const h5::Handle root(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                        "create " + file.string());
+/// The HDF5 file as bytes. HDF5 builds it in memory, because a disk that is full leaves the library's own file driver
+/// in a state in which it can only crash.
+std::vector<char> h5_image(const Study& study, const std::vector<SeriesResult>& all, const Provenance& provenance) {
+  const h5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file access properties");
+  h5::check(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "choose the memory driver");
+  const h5::Handle root(H5Fcreate((study.name + ".h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
+                        "create a file in memory");
   h5::write_text(root, "format", format);
   h5::write_text(root, "study", study.name);
   h5::write_text(root, "title", study.title);
@@ -127,29 +129,33 @@ void write_h5(const fs::path& file, const Study& study, const std::vector<Series
   if (text.flow) h5::write_text(scene, "flow", *text.flow);
   const h5::Handle series = h5::create_group(root, "series");
   for (std::size_t i = 0; i < all.size(); ++i) write_series(series, fmt::format("{:03}", i), study, all[i]);
-  h5::check(H5Fflush(root, H5F_SCOPE_GLOBAL), "flush " + file.string());
+  h5::check(H5Fflush(root, H5F_SCOPE_GLOBAL), "flush the file in memory");
+  const ssize_t size = H5Fget_file_image(root, nullptr, 0);
+  if (size < 0) throw StoreError("HDF5 could not give the file in memory");
+  std::vector<char> image(static_cast<std::size_t>(size));
+  if (H5Fget_file_image(root, image.data(), image.size()) != size) {
+    throw StoreError("HDF5 could not give the file in memory");
+  }
+  return image;
 }
 
-/// Runs `write` on a temporary file beside `file`, then puts it in place in one step.
-template <class Write>
-void replace_atomically(const fs::path& file, Write&& write) {
+/// Writes a temporary file beside `file`, then puts it in place in one step.
+void replace_atomically(const fs::path& file, std::span<const char> content) {
   const fs::path temporary = file.string() + fmt::format(".{}.partial", getpid());
-  try {
-    write(temporary);
-    const int descriptor = open(temporary.c_str(), O_RDONLY);
-    const bool safe = descriptor >= 0 && fsync(descriptor) == 0;
-    if (descriptor >= 0) close(descriptor);
-    if (!safe) throw StoreError(fmt::format("{}: cannot write to disk: {}", temporary.string(), std::strerror(errno)));
-    fs::rename(temporary, file);
-  } catch (const fs::filesystem_error& error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw StoreError(fmt::format("{}: {}", file.string(), error.code().message()));
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw;
+  std::FILE* const stream = std::fopen(temporary.c_str(), "wb");
+  bool good = stream != nullptr && std::fwrite(content.data(), 1, content.size(), stream) == content.size() &&
+              std::fflush(stream) == 0 && fsync(fileno(stream)) == 0;
+  int error = errno;
+  if (stream != nullptr) std::fclose(stream);
+  if (good) {
+    good = std::rename(temporary.c_str(), file.c_str()) == 0;
+    error = errno;
   }
+  if (good) return;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  throw StoreError(fmt::format("{}: cannot be written: {}; free space or name another folder with --out", file.string(),
+                               std::strerror(error)));
 }
 
 }  // namespace
@@ -221,10 +227,8 @@ StoredCases load_cases(const fs::path& file) {
 void write_results(const fs::path& out, const Study& study, const std::vector<SeriesResult>& series,
                    const Provenance& provenance) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  replace_atomically(out / (study.name + ".h5"),
-                     [&](const fs::path& file) { write_h5(file, study, series, provenance); });
-  replace_atomically(out / (study.name + ".json"),
-                     [&](const fs::path& file) { write_json(file, study, series, provenance); });
+  replace_atomically(out / (study.name + ".h5"), h5_image(study, series, provenance));
+  replace_atomically(out / (study.name + ".json"), json_text(study, series, provenance));
 }
 
 }  // namespace acstudy

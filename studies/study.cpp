@@ -19,13 +19,28 @@ namespace acstudy {
 
 namespace {
 
+/// Control characters of a quoted value spelled out: a message is one line.
+std::string on_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n') {
+      line += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      line += fmt::format("\\x{:02x}", static_cast<int>(c));
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
 /// A place in a study file.
 struct Place {
   std::string file;
   std::uint32_t line = 0, column = 0;
 
   [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(fmt::format("{}:{}:{}: {}", file, line, column, message));
+    throw InputError(fmt::format("{}:{}:{}: {}", file, line, column, on_one_line(message)));
   }
   Place shifted(std::size_t by) const { return {file, line, column + static_cast<std::uint32_t>(by)}; }
 };
@@ -70,7 +85,10 @@ class Table {
   std::string expression_text(std::string_view key, std::string_view example, std::size_t& offset) const {
     const toml::node& node = need(key, example);
     offset = 0;
-    if (const auto value = node.value_exact<double>()) return fmt::format("{:.17g}", *value);
+    if (const auto value = node.value_exact<double>()) {
+      if (!std::isfinite(*value)) place(node).fail(fmt::format("{} = {}; it must be finite", key, described(node)));
+      return fmt::format("{:.17g}", *value);
+    }
     if (const auto value = node.value_exact<std::int64_t>()) return fmt::format("{}", *value);
     offset = 1;
     if (const auto value = node.value_exact<std::string>()) return *value;
@@ -100,7 +118,7 @@ class Table {
     if (node.is_table()) return "a table";
     if (node.is_array()) return "an array";
     if (const auto value = node.value_exact<std::string>()) return "\"" + *value + "\"";
-    if (const auto value = node.value_exact<double>()) return fmt::format("{}", *value);
+    if (const auto value = node.value_exact<double>()) return fmt::format("{:#}", *value);
     node.visit([&](const auto& n) { out << n; });
     return out.str();
   }
@@ -166,38 +184,38 @@ std::shared_ptr<const Scene> read_scene(const Table& table) {
 }
 
 KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model) {
-  KernelChoice kernel;
+  static const toml::table no_table;
+  const toml::table* const table = node.as_table();
+  const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
   const toml::node* name_node = &node;
-  if (const toml::table* const table = node.as_table()) {
-    const Table inner(*table, "kernel", scheme.file());
+  if (table != nullptr) {
     inner.allow({"name", "alpha"});
     name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
-    kernel.name = inner.text("name", *name_node, "name = \"power\"");
-    if (const toml::node* const alpha = inner.find("alpha")) {
-      if (kernel.name != "power")
-        inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
-      kernel.alpha = inner.number("alpha", *alpha);
-      if (!std::isfinite(kernel.alpha) || kernel.alpha >= 2.0) {
-        inner.place(*alpha).fail(
-            fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
-      }
-      if (model == 2 && kernel.alpha >= 1.0) {
-        inner.place(*alpha).fail(
-            fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
-      }
-    } else if (kernel.name == "power") {
-      inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
-    }
-  } else {
-    kernel.name = scheme.text("kernel", node, "kernel = \"inverse\"");
-    if (kernel.name == "power") {
-      scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
-    }
   }
+  KernelChoice kernel{scheme.text("kernel", *name_node, "kernel = \"inverse\"")};
   const auto& known = kernel_names();
   if (std::find(known.begin(), known.end(), kernel.name) == known.end()) {
     scheme.place(*name_node)
         .fail(fmt::format("unknown kernel \"{}\"; known kernels: {}", kernel.name, fmt::join(known, ", ")));
+  }
+
+  const toml::node* const alpha = table != nullptr ? inner.find("alpha") : nullptr;
+  if (alpha != nullptr) {
+    if (kernel.name != "power") {
+      inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
+    }
+    kernel.alpha = inner.number("alpha", *alpha);
+    if (!std::isfinite(kernel.alpha) || kernel.alpha >= 2.0) {
+      inner.place(*alpha).fail(
+          fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
+    }
+    if (model == 2 && kernel.alpha >= 1.0) {
+      inner.place(*alpha).fail(fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
+    }
+  } else if (kernel.name == "power" && table != nullptr) {
+    inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
+  } else if (kernel.name == "power") {
+    scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
   }
   if (model == 2 && kernel.name == "inverse") {
     scheme.place(*name_node)
@@ -421,6 +439,10 @@ Study parse_study(const std::string& text, const std::string& file) {
       study.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
     header.place(*header.find("name"))
         .fail(fmt::format("name = \"{}\"; it names result files and may use a-z, 0-9 and - only", study.name));
+  }
+  if (study.name == "cost") {
+    header.place(*header.find("name"))
+        .fail("name = \"cost\"; the report gives that name to its run-time figure, choose another");
   }
   study.title = header.find("title") != nullptr ? header.text("title", "title = \"...\"") : study.name;
 

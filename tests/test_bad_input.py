@@ -364,14 +364,15 @@ class BadFile(ProgramTest):
 
     def test_a_result_file_that_is_none(self):
         (self.folder / "folder").mkdir()
+        remedy = "name a .json file that acstudy run has written"
         for name, text, said in (
-                ("none.json", None, "cannot read the result file; name a .json file that acstudy run has written"),
-                ("folder", None, "not a result file of acstudy: .+"),
-                ("text.json", "[study]", "not a result file of acstudy: .+"),
-                ("half.json", '{"study": "tiny", "series": [', "not a result file of acstudy: .+"),
-                ("empty.json", "", "not a result file of acstudy: .+"),
-                ("list.json", "[]", "not a result file of acstudy: .+"),
-                ("other.json", '{"study": "tiny"}', "not a result file of acstudy: .*series.*"),
+                ("none.json", None, f"cannot read the result file; {remedy}"),
+                ("folder", None, f"cannot read the result file; {remedy}"),
+                ("text.json", "[study]", f"not JSON, from byte 2 on; {remedy}"),
+                ("half.json", '{"study": "tiny", "series": [', f"not JSON, from byte 30 on; {remedy}"),
+                ("empty.json", "", f"cannot read the result file; {remedy}"),
+                ("list.json", "[]", f"not a result file of acstudy: .+; {remedy}"),
+                ("other.json", '{"study": "tiny"}', f"not a result file of acstudy: .*series.*; {remedy}"),
                 ("no-series.json", '{"study": "tiny", "series": []}',
                  "the result file has no series, so there is nothing to check")):
             with self.subTest(name):
@@ -400,7 +401,7 @@ class BadUsage(ProgramTest):
                 done = self.acstudy(*arguments)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
                 self.assertTrue(done.stderr.startswith("acstudy: "), done.stderr)
-                self.assertTrue(done.stderr.endswith("; see acstudy --help\n"), done.stderr)
+                self.assertRegex(done.stderr, r"; see acstudy (run |check |explain |list )?--help\n$")
                 self.assertIn(named, done.stderr)
         self.assertEqual([file.name for file in self.folder.iterdir()], ["good.toml"])
 

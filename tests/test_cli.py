@@ -560,14 +560,14 @@ class Gate(ProgramTest):
     def test_run_and_check_agree_on_a_wrong_expectation(self):
         text = edit(GOOD, ('source = "local"', 'source = "local"\nexpect = "above"'))
         done = self.run_study(text, expect=1)
-        self.assertRegex(done.stdout, r"DEPART .* confirmed +expected above")
+        self.assertRegex(done.stdout, r"DEPART .* confirmed, expected above")
         self.assertEqual(self.acstudy("check", "out/tiny.json").returncode, 1)
         self.run_study(text, expect=1)
 
     def test_a_blow_up_is_3_unless_it_is_expected(self):
         for text in (self.UNSTABLE, self.OVERFLOWING):
             done = self.run_study(text, expect=3)
-            self.assertRegex(done.stdout, r"DEPART .* unstable +expected confirmed; ")
+            self.assertRegex(done.stdout, r"DEPART .* unstable, expected confirmed: ")
             self.assertEqual(self.acstudy("check", "out/tiny.json").returncode, 1)
             expected = edit(text, ('source = "local"', 'source = "local"\nexpect = "unstable"'))
             self.assert_counts(self.run_study(expected, expect=0), 0, 3)

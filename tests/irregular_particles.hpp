@@ -42,7 +42,8 @@ struct Neighbor {
   double distance;    ///< > 0
 };
 
-/// The neighbors of particle j on one side (-1: left, +1: right), nearest first: those within delta, the nearest always.
+/// The neighbors of particle j on one side (-1: left, +1: right), nearest first: those within delta, the nearest
+/// always.
 inline std::vector<Neighbor> neighbors(const std::vector<double>& x, double period, double delta, std::size_t j,
                                        int side) {
   std::vector<Neighbor> others;

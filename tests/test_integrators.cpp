@@ -48,13 +48,15 @@ TEST_CASE("every integrator has its declared order and no more") {
         CHECK_THAT(orders[i], WithinAbs(integrator.order, 0.1));
       }
     };
-    check(observed_orders(integrator, [](double, double u) { return -1.3 * u; }, 1.0, std::exp(-1.3)));
+    check(observed_orders(
+        integrator, [](double, double u) { return -1.3 * u; }, 1.0, std::exp(-1.3)));
     // The rate depends on time: a stage at the wrong time loses an order. u = (1 + t) e^(sin t).
     check(observed_orders(
         integrator, [](double t, double u) { return u * std::cos(t) + std::exp(std::sin(t)); }, 1.0,
         2.0 * std::exp(std::sin(1.0))));
     // Nonlinear, autonomous: u' = u^2, u = 1 / (1 - t).
-    check(observed_orders(integrator, [](double, double u) { return u * u; }, 0.5, 2.0));
+    check(observed_orders(
+        integrator, [](double, double u) { return u * u; }, 0.5, 2.0));
   }
 }
 
@@ -64,7 +66,9 @@ TEST_CASE("one step on u' = lambda u is the Taylor polynomial of e^z to the orde
       double polynomial = 1.0, term = 1.0;
       for (int p = 1; p <= integrator.order; ++p) polynomial += term *= z / p;
       INFO(integrator.name << ", z = " << z);
-      CHECK_THAT(solve(integrator, [&](double, double u) { return z * u; }, 1.0, 1), WithinAbs(polynomial, 1e-15));
+      CHECK_THAT(solve(
+                     integrator, [&](double, double u) { return z * u; }, 1.0, 1),
+                 WithinAbs(polynomial, 1e-15));
     }
   }
 }
@@ -148,6 +152,7 @@ TEST_CASE("no integrator hides a value that is not finite") {
   for (const Integrator& integrator : integrators) {
     INFO(integrator.name);
     CHECK(std::isnan(solve(
-        integrator, [](double t, double u) { return t > 0.3 ? std::numeric_limits<double>::quiet_NaN() : u; }, 1.0, 10)));
+        integrator, [](double t, double u) { return t > 0.3 ? std::numeric_limits<double>::quiet_NaN() : u; }, 1.0,
+        10)));
   }
 }

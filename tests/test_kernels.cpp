@@ -9,9 +9,9 @@
 #include "tests/kernel_integrals.hpp"
 
 using namespace acstudy;
-using Catch::Matchers::WithinRel;
-using Catch::Matchers::WithinAbs;
 using acstudy::test::kernel_integral;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
 
 static_assert(Kernel<InverseKernel> && !IntegrableKernel<InverseKernel>);
 static_assert(Kernel<PowerKernel> && !IntegrableKernel<PowerKernel>);
@@ -39,7 +39,7 @@ TEST_CASE("every kernel has first moment one, (2.3)") {
     INFO(name);
     CHECK(kernel.first_moment(0.0) == 0.0);
     CHECK(kernel.first_moment(1.0) == 1.0);
-      // The quadrature in the test reaches 1e-12; the closed form is exact to a few units in the last place.
+    // The quadrature in the test reaches 1e-12; the closed form is exact to a few units in the last place.
     CHECK_THAT(kernel_integral(kernel, 1, 0.0, 1.0), WithinRel(1.0, 1e-11));
   });
 }
@@ -121,9 +121,9 @@ TEST_CASE("the spline kernel is -8 rho'(2z) of the printed B-spline") {
     // A fourth-order difference is exact for a cubic: round-off, 1e-16 / h, is all there is.
     constexpr double h = 1e-3;
     const double zeta = 2.0 * z;
-    const double slope = (8.0 * (test::rho(zeta + h) - test::rho(zeta - h)) -
-                          (test::rho(zeta + 2.0 * h) - test::rho(zeta - 2.0 * h))) /
-                         (12.0 * h);
+    const double slope =
+        (8.0 * (test::rho(zeta + h) - test::rho(zeta - h)) - (test::rho(zeta + 2.0 * h) - test::rho(zeta - 2.0 * h))) /
+        (12.0 * h);
     CHECK_THAT(spline.eta(z), WithinAbs(-8.0 * slope, 1e-11));
     CHECK_THAT(spline.mass(z), WithinAbs(4.0 * (test::rho(0.0) - test::rho(zeta)), 1e-14));
   }

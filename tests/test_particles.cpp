@@ -134,9 +134,9 @@ TEST_CASE("particles that cross are refused") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Positions sound = {-0.1, 0.2, 0.5, 0.8};
   CHECK_NOTHROW(particles.place(sound));
-  for (const Positions& crossed : {Positions{0.0, 0.5, 0.2, 0.8}, Positions{0.0, 0.2, 0.2, 0.8},
-                                   Positions{0.0, 0.2, 0.5, 1.0}, Positions{0.0, 0.2, 0.5, 1.3},
-                                   Positions{0.0, nan, 0.5, 0.8}, Positions{0.0, 0.2, 0.5, nan}}) {
+  for (const Positions& crossed :
+       {Positions{0.0, 0.5, 0.2, 0.8}, Positions{0.0, 0.2, 0.2, 0.8}, Positions{0.0, 0.2, 0.5, 1.0},
+        Positions{0.0, 0.2, 0.5, 1.3}, Positions{0.0, nan, 0.5, 0.8}, Positions{0.0, 0.2, 0.5, nan}}) {
     CAPTURE(crossed);
     CHECK_THROWS_AS(particles.place(crossed), std::domain_error);
     CHECK_THROWS_WITH(particles.place(crossed),

@@ -47,16 +47,19 @@ Analytic<IntegrablePowerKernel> root() {
   return {"power 0.5", IntegrablePowerKernel(0.5), [](double z) { return z * std::sqrt(z); },
           [](double z) { return 3.0 * std::sqrt(z); }, power_moments(0.5)};
 }
-/// By parts from rho: int -8 rho'(2s) ds = 4 (rho(0) - rho(2z)), int s (-8 rho'(2s)) ds = 2 int_0^{2z} rho - 4 z rho(2z).
+/// By parts from rho: int -8 rho'(2s) ds = 4 (rho(0) - rho(2z)), int s (-8 rho'(2s)) ds = 2 int_0^{2z} rho - 4 z
+/// rho(2z).
 Analytic<CubicSplineKernel> spline() {
   const auto integral_of_rho = [](double zeta) {
     const double y = 2.0 - zeta;
     return zeta <= 1.0 ? 2.0 / 3.0 * (zeta - 0.5 * std::pow(zeta, 3) + 0.1875 * std::pow(zeta, 4))
                        : 0.5 - std::pow(y, 4) / 24.0;
   };
-  return {"cubic spline", {},
+  return {"cubic spline",
+          {},
           [=](double z) { return 2.0 * integral_of_rho(2.0 * z) - 4.0 * z * rho(2.0 * z); },
-          [](double z) { return 4.0 * (rho(0.0) - rho(2.0 * z)); }, spline_moment};
+          [](double z) { return 4.0 * (rho(0.0) - rho(2.0 * z)); },
+          spline_moment};
 }
 
 /// -sum_m W_m (1 - e^(-ikmh)) on the uniform grid, c = 1; the W_m in closed form.
@@ -89,7 +92,8 @@ Complex discrete_central_symbol(const Analytic<K>& kernel, double k, double h, d
   return {mu * std::max(delta, h) * D / N, -A / N};
 }
 
-/// Forward Euler from Re e^(ikx) against Re (1 + dt lambda)^n e^(ikx); returns the error relative to |G|^n.
+/// Forward Euler from Re e^(ikx) against Re (1 + dt lambda)^n e^(ikx); returns the error relative to |1 + dt lambda|^n,
+/// for steps short enough that the wave is not damped into the round-off of others.
 template <class Scheme>
 double error_after_steps(Scheme scheme, std::size_t N, double delta, int k, Complex lambda, double dt,
                          std::int64_t steps) {
@@ -116,7 +120,12 @@ constexpr double horizons[] = {0.3 * h, 0.999 * h, 1.4 * h, 4.6 * h, 12.3 * h};
 constexpr std::int64_t steps = 240;
 
 SceneText wave(int k) {
-  return {.name = "", .period = "2*pi", .T = "1", .c = "1", .b = std::nullopt, .u = "cos(" + std::to_string(k) + "*x)",
+  return {.name = "",
+          .period = "2*pi",
+          .T = "1",
+          .c = "1",
+          .b = std::nullopt,
+          .u = "cos(" + std::to_string(k) + "*x)",
           .flow = std::nullopt};
 }
 
@@ -141,8 +150,7 @@ TEST_CASE("Model I propagates e^(ikx) by its discrete symbol") {
   const auto check = [](const auto& kernel) {
     for (const double delta : horizons) {
       for (const int k : {1, 3, 5}) {
-        // At CFL 1/2 |G|^240 stays large enough for relative errors to mean something.
-        const double dt = 0.05 * h;
+        const double dt = 0.01 * h;
         const Complex lambda = discrete_upwind_symbol(kernel, k, h, delta);
         INFO(kernel.name << ", delta / h = " << delta / h << ", k = " << k << ", lambda = " << lambda);
         ModelI<std::decay_t<decltype(kernel.kernel)>, NoDivergence> scheme(kernel.kernel);
@@ -163,7 +171,7 @@ TEST_CASE("Model I's discrete symbol for delta < h is that of the upwind differe
     const Complex upwind = -(1.0 - std::polar(1.0, -k * h)) / h;
     CHECK(std::abs(discrete_upwind_symbol(spline(), k, h, 0.4 * h) - upwind) < 1e-14 / h);
     ModelI<CubicSplineKernel, NoDivergence> scheme(CubicSplineKernel{});
-    CHECK(error_after_steps(scheme, N, 0.4 * h, k, upwind, 0.05 * h, steps) < 1e-11);
+    CHECK(error_after_steps(scheme, N, 0.4 * h, k, upwind, 0.01 * h, steps) < 1e-11);
   }
 }
 
@@ -172,7 +180,7 @@ TEST_CASE("Model II propagates e^(ikx) by its discrete symbol") {
     for (const double delta : horizons) {
       for (const int k : {1, 3, 5}) {
         for (const double mu : {1.0, 1.6}) {
-          const double dt = 0.05 * h;
+          const double dt = 0.01 * h;
           const Complex lambda = discrete_central_symbol(kernel, k, h, delta, mu);
           INFO(kernel.name << ", delta / h = " << delta / h << ", k = " << k << ", mu = " << mu);
           ModelII<std::decay_t<decltype(kernel.kernel)>, NoDivergence> scheme(kernel.kernel, mu);
@@ -193,11 +201,9 @@ TEST_CASE("the exact symbols agree with their closed forms") {
     for (const int k : {1, 2, 3}) {
       const double q = k * delta;
       CAPTURE(delta, k);
-      const Complex inverse_form =
-          Complex(std::numbers::egamma + std::log(q) - gsl_sf_Ci(q), gsl_sf_Si(q)) / delta;
+      const Complex inverse_form = Complex(std::numbers::egamma + std::log(q) - gsl_sf_Ci(q), gsl_sf_Si(q)) / delta;
       CHECK(std::abs(upwind_symbol(inverse_moment, k, delta) - inverse_form) < 1e-14 * std::abs(inverse_form));
-      const Complex constant_form =
-          2.0 / (delta * delta) * Complex(delta - std::sin(q) / k, (1.0 - std::cos(q)) / k);
+      const Complex constant_form = 2.0 / (delta * delta) * Complex(delta - std::sin(q) / k, (1.0 - std::cos(q)) / k);
       CHECK(std::abs(upwind_symbol(power_moments(0.0), k, delta) - constant_form) < 1e-14 * std::abs(constant_form));
       // w = -rho_epsilon', epsilon = delta / 2: its transform is i k times that of the B-spline, sinc^4.
       const double sinc = std::sin(0.25 * q) / (0.25 * q);
@@ -231,7 +237,9 @@ TEST_CASE("the nonlocal source of Model II for u = cos(kx), c = 1 is the exact s
   const auto check = [](const std::string& name, const auto& kernel, const Moments& moments) {
     for (const double delta : {1e-6, 1e-3, 0.2, 1.0, 2.5}) {
       for (const int k : {1, 3}) {
-        for (const double mu : {0.0, 1.3}) {
+        for (const double mu : {0.0, 0.4, 1.3}) {
+          // Without viscosity the symbol nearly vanishes for long horizons, and with it the scale of the error.
+          if (mu == 0.0 && delta > 1.0) continue;
           INFO(name << ", delta = " << delta << ", k = " << k << ", mu = " << mu);
           const Complex S = central_symbol(moments, k, delta) - delta * mu * viscous_symbol(moments, k, delta);
           CHECK(source_error({2, false, profile(kernel), delta, mu}, k, S) < 1e-13);

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "mms/scene.hpp"
+#include "solver/particles.hpp"
+#include "solver/velocity.hpp"
+#include "tests/catch.hpp"
+
+using namespace acstudy;
+using Catch::Matchers::WithinAbs;
+
+static_assert(ParticleVelocity<Scene>);
+
+namespace {
+
+const SceneText& paper() { return named_scenes().front(); }
+
+SceneText wave() {
+  return {.name = "", .period = "2*pi", .T = "1", .c = "1", .b = std::nullopt, .u = "cos(x-t)", .flow = std::nullopt};
+}
+
+struct Refusal {
+  std::string field, message;
+  std::size_t position;
+};
+
+Refusal refusal(const std::function<void(SceneText&)>& change) {
+  SceneText text = wave();
+  change(text);
+  try {
+    const Scene scene(text);
+  } catch (const SceneError& error) {
+    return {error.field, error.what(), error.position};
+  }
+  return {"", "accepted", 0};
+}
+
+}  // namespace
+
+TEST_CASE("the paper's scene is that of its section 4") {
+  const Scene scene(paper());
+  CHECK(scene.text().name == "lee-du-2019");
+  CHECK(scene.period() == 2.0 * std::numbers::pi);
+  CHECK(scene.T() == 1.0);
+  CHECK_FALSE(scene.standing());
+  for (const double x : {-1.0, 0.0, 0.3, 2.0, 5.0}) {
+    CAPTURE(x);
+    double c = 0.0, c_prime = 0.0, b = 0.0, b_prime = 0.0, b_prime_alone = 0.0, u = 0.0, u_x = 0.0, u_t = 0.0;
+    scene.c({&x, 1}, {&c, 1}, {&c_prime, 1});
+    scene.b({&x, 1}, {&b, 1}, {&b_prime, 1});
+    scene.b_prime({&x, 1}, {&b_prime_alone, 1});
+    scene.u({&x, 1}, 0.7, {&u, 1}, {&u_x, 1}, {&u_t, 1});
+    CHECK_THAT(c, WithinAbs(std::cos(2 * x) / 3, 1e-15));
+    CHECK_THAT(c_prime, WithinAbs(-2 * std::sin(2 * x) / 3, 1e-15));
+    CHECK_THAT(b, WithinAbs(std::sin(x), 1e-15));
+    CHECK_THAT(b_prime, WithinAbs(std::cos(x), 1e-15));
+    CHECK(b_prime_alone == b_prime);
+    CHECK_THAT(u, WithinAbs(std::cos(x - 0.7), 1e-15));
+    CHECK_THAT(u_x, WithinAbs(-std::sin(x - 0.7), 1e-15));
+    CHECK_THAT(u_t, WithinAbs(std::sin(x - 0.7), 1e-15));
+  }
+}
+
+TEST_CASE("the closed flow is the integrated one, forth and back in time") {
+  SceneText without_flow = paper();
+  without_flow.flow.reset();
+  const Scene closed(paper()), integrated(without_flow);
+  REQUIRE(closed.flow().has_value());
+  REQUIRE_FALSE(integrated.flow().has_value());
+  const auto start = uniform_positions(64, closed.period());
+  Trajectories exact(closed, start), numerical(integrated, start);
+  for (const double t : {0.0, 0.1, 1.0, 0.5, 0.5, 0.0, 1.0, 0.99}) {
+    CAPTURE(t);
+    const auto a = exact.at(t);
+    const auto b = numerical.at(t);
+    double worst = 0.0;
+    // The closed flow takes x to (-pi, pi]: compare up to the period.
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      worst = std::max(worst, std::abs(std::remainder(a[j] - b[j], closed.period())));
+    }
+    CHECK(worst < 1e-12);
+    CHECK(std::is_sorted(a.begin(), a.end()));
+    CHECK(std::is_sorted(b.begin(), b.end()));
+    CHECK(a.back() < a.front() + closed.period());
+  }
+  // Fixed points of the flow.
+  CHECK(numerical.at(1.0)[0] == 0.0);
+  CHECK_THAT(numerical.at(1.0)[32], WithinAbs(std::numbers::pi, 1e-14));
+}
+
+TEST_CASE("the integrated flow of constant b is a translation without wrapping") {
+  SceneText text = wave();
+  text.b = "1.5";
+  const Scene scene(text);
+  Trajectories trajectories(scene, {0.0, 1.0, 6.0});
+  const auto x = trajectories.at(1.0);
+  CHECK_THAT(x[0], WithinAbs(1.5, 1e-13));
+  CHECK_THAT(x[2], WithinAbs(7.5, 1e-13));
+}
+
+TEST_CASE("max_relative_velocity is the maximum of |c - b|") {
+  // |cos(2x)/3 - sin x| = 4/3 at x = pi/2.
+  CHECK_THAT(Scene(paper()).max_relative_velocity(), WithinAbs(4.0 / 3.0, 1e-15));
+  CHECK(Scene(wave()).max_relative_velocity() == 1.0);
+  SceneText text = wave();
+  // The maximum lies between sample points: |2 + cos(x - 0.1234)|.
+  text.c = "2 + cos(x - 0.1234)";
+  CHECK_THAT(Scene(text).max_relative_velocity(), WithinAbs(3.0, 1e-14));
+  text.c = "-2 - cos(x - 0.1234)";
+  CHECK_THAT(Scene(text).max_relative_velocity(), WithinAbs(3.0, 1e-14));
+  text.c = "sin(x)";
+  text.b = "sin(x)";
+  CHECK(Scene(text).max_relative_velocity() == 0.0);
+}
+
+TEST_CASE("particles stand still where b is absent or zero") {
+  CHECK(Scene(wave()).standing());
+  for (const std::string b : {"0", "0.0", "1 - 1"}) {
+    SceneText text = wave();
+    text.b = b;
+    CAPTURE(b);
+    CHECK(Scene(text).standing());
+  }
+  for (const std::string b : {"1", "sin(x)"}) {
+    SceneText text = wave();
+    text.b = b;
+    CAPTURE(b);
+    CHECK_FALSE(Scene(text).standing());
+  }
+}
+
+TEST_CASE("every named scene is sound") {
+  std::vector<std::string> names;
+  for (const SceneText& text : named_scenes()) {
+    CAPTURE(text.name);
+    CHECK_NOTHROW(Scene(text));
+    CHECK_FALSE(text.name.empty());
+    CHECK(std::find(names.begin(), names.end(), text.name) == names.end());
+    names.push_back(text.name);
+  }
+}
+
+TEST_CASE("a scene that does not keep its promises is refused with field and reason") {
+  const struct {
+    std::function<void(SceneText&)> change;
+    std::string field, message;
+    std::size_t position = 0;
+  } table[] = {
+      {[](SceneText& s) { s.c = "x"; }, "c", "c is not periodic: c(x + 6.28319) and c(x) differ by 6.28"},
+      {[](SceneText& s) { s.u = "cos(x/2)"; }, "u", "u is not periodic: u(x + 6.28319) and u(x) differ by 2"},
+      {[](SceneText& s) { s.b = "sin(x/2)"; }, "b", "b is not periodic: b(x + 6.28319) and b(x) differ by 2"},
+      {[](SceneText& s) { s.u = "cos(x) + (t > 0)"; }, "u", "unexpected \">\"; an expression has no conditions", 12},
+      {[](SceneText& s) { s.c = "1/sin(x)"; }, "c", "c is inf at x = 0; it must be finite everywhere"},
+      {[](SceneText& s) { s.u = "1/(t - 1)"; }, "u", "u is inf at x = 0; it must be finite everywhere"},
+      {[](SceneText& s) { s.T = "0"; }, "T", "T = 0; it must be positive and finite"},
+      {[](SceneText& s) { s.T = "-1"; }, "T", "T = -1; it must be positive and finite"},
+      {[](SceneText& s) { s.T = "1/0"; }, "T", "T = inf; it must be positive and finite"},
+      {[](SceneText& s) { s.period = "-2*pi"; }, "period", "period = -6.28319; it must be positive and finite"},
+      {[](SceneText& s) { s.flow = "x"; }, "flow", "a flow without b; particles stand still unless b is given"},
+      {[](SceneText& s) { s.b = "sin(x)", s.flow = "x + 1"; }, "flow",
+       "the flow at t = 0 takes x = 0 to 1; it must leave it there"},
+      {[](SceneText& s) { s.b = "sin(x)", s.flow = "x + t"; }, "flow",
+       "the flow does not follow b: its velocity differs from b by 2 at t = 0; leave it out to have it integrated"},
+      {[](SceneText& s) { s.b = "sin(x)", s.flow = "x + t*sin(x)"; }, "flow",
+       "the flow does not follow b: its velocity differs from b by 0.21 at t = 0.37; leave it out to have it "
+       "integrated"},
+      {[](SceneText& s) { s.c = "sin(y)"; }, "c", "unknown name \"y\"; it may use x, pi, e and the usual functions", 4},
+      {[](SceneText& s) { s.c = "t"; }, "c", "unknown name \"t\"; it may use x, pi, e and the usual functions"},
+      {[](SceneText& s) { s.u = "cos(x"; }, "u", "a closing parenthesis is missing", 4},
+  };
+  CHECK(refusal([](SceneText&) {}).message == "accepted");
+  for (const auto& [change, field, message, position] : table) {
+    const Refusal got = refusal(change);
+    CAPTURE(got.field, got.message);
+    CHECK(got.field == field);
+    CHECK(got.message == message);
+    CHECK(got.position == position);
+  }
+}

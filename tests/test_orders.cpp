@@ -139,7 +139,8 @@ TEST_CASE("errors that are zero, negative or without refinement are inconclusive
 
 TEST_CASE("a growing error diverges; one that explodes is unstable") {
   CHECK(verdict(levels(halved, [](double v) { return 1e-3 / v; }), 1.0) == "diverges");
-  CHECK(verdict(levels(halved, [](double v) { return 1e-3 * std::pow(v, -0.01); }), 1.0) == "diverges");
+  CHECK(verdict(levels(halved, [](double v) { return 1e-3 * std::pow(v, -0.1); }), 1.0) == "diverges");
+  CHECK(verdict(levels(halved, [](double v) { return 1e-3 * std::pow(v, -0.01); }), 1.0) == "stagnates");
   CHECK(verdict(levels(halved, [](double v) { return 1e-3 * std::exp(2.0 / v); }), 1.0) == "unstable");
   // Converges first: the growth from the smallest error counts.
   CHECK(verdict({{0.8, 0.08}, {0.4, 0.04}, {0.2, 0.02}, {0.1, 5e5}}, 1.0) == "unstable");

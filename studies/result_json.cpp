@@ -19,7 +19,7 @@ using json = nlohmann::ordered_json;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-json to_json(const Study& study, const SeriesResult& result) {
+json series_json(const Study& study, const SeriesResult& result) {
   const Series& series = *result.series;
   const Judgement& judgement = result.judgement;
   json out;
@@ -108,15 +108,16 @@ Verdict verdict(const json& value) {
   return *found;
 }
 
-SeriesRecord from_json(const std::string& study, const json& series) {
+SeriesRecord read_series(const std::string& study, const json& series) {
   SeriesRecord record;
   record.study = study;
-  const bool standing = series.value("motion", "moving") == "standing";
+  const bool standing = series.value("motion", std::string("moving")) == "standing";
   const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
-  record.label = series_label(series.at("model").get<int>(), standing, series.at("divergence") == "nonlocal", kernel,
-                              series.at("path").get<std::string>());
+  record.label =
+      series_label(series.at("model").get<int>(), standing, series.at("divergence").get<std::string>() == "nonlocal",
+                   kernel, series.at("path").get<std::string>());
   const json& theory = series.at("theory");
-  const bool by_h = theory.at("variable") == "h";
+  const bool by_h = theory.at("variable").get<std::string>() == "h";
   for (const json& one : series.at("cases")) {
     const double h = real(one.at("h")), delta = real(one.at("delta"));
     record.levels.push_back({by_h ? h : std::max(h, delta), real(one.at("error_linf"))});
@@ -135,7 +136,7 @@ std::string json_text(const Study& study, const std::vector<SeriesResult>& all, 
   root["provenance"] = json::object();
   for (const auto& [name, value] : provenance) root["provenance"][name] = value;
   root["series"] = json::array();
-  for (const SeriesResult& series : all) root["series"].push_back(to_json(study, series));
+  for (const SeriesResult& series : all) root["series"].push_back(series_json(study, series));
   return pretty(root) + "\n";
 }
 
@@ -147,7 +148,7 @@ std::vector<SeriesRecord> read_json(const std::string& file) {
   std::vector<SeriesRecord> all;
   try {
     const json root = json::parse(text.str());
-    for (const json& series : root.at("series")) all.push_back(from_json(root.at("study").get<std::string>(), series));
+    for (const json& series : root.at("series")) all.push_back(read_series(root.at("study").get<std::string>(), series));
   } catch (const json::parse_error& error) {
     throw InputError(fmt::format("{}: not JSON, from byte {} on; {}", file, error.byte, remedy));
   } catch (const json::exception& error) {

@@ -118,7 +118,10 @@ class Table {
     if (node.is_table()) return "a table";
     if (node.is_array()) return "an array";
     if (const auto value = node.value_exact<std::string>()) return "\"" + *value + "\"";
-    if (const auto value = node.value_exact<double>()) return fmt::format("{:#}", *value);
+    if (const auto value = node.value_exact<double>()) {
+      const std::string text = fmt::format("{}", *value);
+      return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+    }
     node.visit([&](const auto& n) { out << n; });
     return out.str();
   }

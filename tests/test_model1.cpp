@@ -121,6 +121,24 @@ TEST_CASE("Remark 2.2: Model I's weights are not negative and sum d_k W_k = 1") 
   }
 }
 
+TEST_CASE("Remark 2.2 holds for neighbors that tie at the horizon, within its tolerance") {
+  // Three neighbors on each side of particle 3, all at the horizon up to round-off, some beyond it.
+  const std::vector<double> offsets = {-1.0 - 8e-12, -1.0 - 4e-12, -1.0, 0.0, 1.0, 1.0 + 4e-12, 1.0 + 8e-12};
+  for_each_kernel([&](const std::string& name, auto kernel) {
+    for (const double c : {1.0, -1.0}) {
+      INFO(name << ", c = " << c);
+      const auto scheme = placed_scheme<NoDivergence>(kernel, offsets, 1.0, constant_velocity(c));
+      REQUIRE(scheme.weights(3).size() == 3);
+      double sum = 0.0;
+      for (const double W : scheme.weights(3)) {
+        CHECK(W >= 0.0);
+        sum += W;
+      }
+      CHECK_THAT(sum, WithinRel(1.0, 1e-10));
+    }
+  });
+}
+
 TEST_CASE("Remark 2.1: below every gap Model I is the upwind difference") {
   const auto x = irregular_positions(N, period, 4);
   const auto u = irregular_values(N, 5);

@@ -12,6 +12,7 @@
 #include "tests/velocities.hpp"
 
 using namespace acstudy;
+using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using namespace acstudy::test;
 
@@ -151,6 +152,23 @@ TEST_CASE("(3.4): Model II's weights cancel, and N_j is their first moment") {
       }
     });
   }
+}
+
+TEST_CASE("(3.4) and the signs of the weights hold for neighbors that tie at the horizon, within its tolerance") {
+  const std::vector<double> offsets = {-1.0 - 8e-12, -1.0 - 4e-12, -1.0, 0.0, 1.0, 1.0 + 4e-12, 1.0 + 8e-12};
+  for_each_kernel([&](const std::string& name, auto kernel) {
+    INFO(name);
+    const auto scheme = placed_scheme<NoDivergence>(kernel, offsets, 1.0, constant_velocity(1.0));
+    const auto W = scheme.weights(3);
+    REQUIRE(W.size() == 6);
+    double sum = 0.0;
+    for (std::size_t m = 0; m < 6; ++m) {
+      CHECK((m < 3 ? -W[m] : W[m]) >= 0.0);
+      sum += W[m];
+    }
+    CHECK_THAT(sum, WithinAbs(0.0, 1e-14));
+    CHECK_THAT(scheme.renormalization(3), WithinRel(kernel.mass(1.0), 1e-10));
+  });
 }
 
 TEST_CASE("Lemma 3.1: N_j > 0 and |N_j - 1| <= ||w||_1 h_max") {

@@ -255,7 +255,8 @@ ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector
       return each([&](auto i) { return (da[i] - v[i] * db[i]) / b[i]; });
     case Op::power:
       return each([&](auto i) {
-        const double base = varies_a ? b[i] * (b[i] == 2.0 ? a[i] : std::pow(a[i], b[i] - 1.0)) * da[i] : 0.0;
+        const double base =
+            varies_a && b[i] != 0.0 ? b[i] * (b[i] == 2.0 ? a[i] : std::pow(a[i], b[i] - 1.0)) * da[i] : 0.0;
         return varies_b ? base + v[i] * std::log(a[i]) * db[i] : base;
       });
     case Op::negate:

@@ -47,7 +47,7 @@ class Scene {
   const SceneText& text() const { return text_; }
   double period() const { return period_; }
   double T() const { return T_; }
-  /// True if b is absent or identically zero: no particle ever moves.
+  /// True if b is absent or the constant zero: no particle ever moves.
   bool standing() const { return !b_; }
 
   void c(std::span<const double> x, std::span<double> out) const { c_.evaluate(x, {}, {out, {}, {}}); }

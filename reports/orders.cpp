@@ -157,6 +157,10 @@ void judge_order(std::span<const Level> levels, double theory, Judgement& result
     return conclude(Verdict::inconclusive,
                     fmt::format("the error has not settled: pairwise orders {}", listed(pairwise)));
   }
+  if (last < 0.25 * theory) {
+    return conclude(Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}",
+                                                    levels.back().error, listed(pairwise)));
+  }
   if (result.high - result.low > 2.0 && !approaching) {
     return conclude(Verdict::inconclusive,
                     fmt::format("{}: the interval is too wide to judge; pairwise orders {}", fitted, listed(pairwise)));
@@ -175,10 +179,6 @@ void judge_order(std::span<const Level> levels, double theory, Judgement& result
     return conclude(Verdict::inconclusive,
                     fmt::format("pairwise orders {} move toward {:g}; to extrapolate them takes a fourth level",
                                 listed(pairwise), theory));
-  }
-  if (last < 0.25 * theory) {
-    return conclude(Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}",
-                                                    levels.back().error, listed(pairwise)));
   }
   const double distance = agrees(last) ? result.order - theory : last - theory;
   conclude(distance < 0.0 ? Verdict::below : Verdict::above,

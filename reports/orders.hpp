@@ -51,8 +51,8 @@ inline constexpr double extrapolation_tolerance = 0.1;
 ///
 /// Confirmed means: the fitted order and the last pairwise order lie within `order_tolerance` of theory's.
 /// Pre-asymptotic means: they do not yet, but each pairwise order is closer to theory's than the one before, and the
-/// extrapolated order lies within `extrapolation_tolerance`. Both bounds are two-sided. Nothing else passes: a level that is not
-/// finite, zero or negative, a growing error or fewer than three levels have verdicts of their own.
+/// extrapolated order lies within `extrapolation_tolerance`. Both bounds are two-sided. Nothing else passes: a level
+/// that is not finite, zero or negative, a growing error or fewer than three levels have verdicts of their own.
 ///
 /// @param levels        coarse to fine; the actual variable of each level, so any refinement ratio is right
 /// @param theory_order  0 where theory says that the error does not vanish

@@ -21,7 +21,7 @@ namespace acstudy {
 /// W_{j,k} is the integral of w^delta(y - x_j) over the cell between neighbors k - 1 and k, the outermost cell reaching
 /// to the horizon; negative for k < 0. Over k = -l_j .. r_j, k != 0, with i = j + k:
 ///
-///     N_j = sum_k (x_i - x_j) W_{j,k}                              N_j >= 1 (Lemma 3.1), sum_k W_{j,k} = 0 (3.4)
+///     N_j = sum_k (x_i - x_j) W_{j,k}                              N_j - 1 = O(h/delta), sum_k W_{j,k} = 0 (3.4)
 ///     A_j = (1/N_j) sum_k c_hat((x_j + x_i)/2) (u_j + u_i) W_{j,k}
 ///     D_j = (1/N_j) sum_k (u_i - u_j)/(x_i - x_j) W_{j,k}
 ///     B_j = (2/N_j) sum_k b((x_j + x_i)/2) W_{j,k}
@@ -31,7 +31,9 @@ namespace acstudy {
 ///     (3.8)   rate_j = - b'_j u_j - A_j + mu reach_j D_j
 ///     (3.10)  rate_j = - B_j u_j  - A_j + mu reach_j D_j
 ///
-/// Stability (Lemma 3.3): 2 dt mu / h_min <= 1 with mu >= max|c_hat|, whatever the horizon.
+/// Stability: dt mu max_j (reach_j/N_j) sum_k W_{j,k}/(x_i - x_j) <= 1 with mu >= max|c_hat| bounds the max norm of a
+/// step. Lemma 3.3 prints 2 dt mu / h_min <= 1, which is enough for the cubic spline on equal gaps but not for kernels
+/// close to singular (power family, alpha = 0.9) nor for every uneven arrangement; see docs/equations.md.
 template <IntegrableKernel K, class Divergence>
 class ModelII {
  public:

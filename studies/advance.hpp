@@ -119,6 +119,7 @@ CaseResult advance(const Case& c, Scheme scheme, Source& source, const std::atom
   }
   result.error_l1 = l1 / scene.period();
   result.error_l2 = std::sqrt(l2 / scene.period());
+  if (!std::isfinite(result.error_linf) && result.failure.empty()) result.failure = "the solution is not finite at T";
   if (!result.failure.empty()) {
     result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
   }

@@ -148,7 +148,8 @@ std::vector<SeriesRecord> read_json(const std::string& file) {
   std::vector<SeriesRecord> all;
   try {
     const json root = json::parse(text.str());
-    for (const json& series : root.at("series")) all.push_back(read_series(root.at("study").get<std::string>(), series));
+    for (const json& series : root.at("series"))
+      all.push_back(read_series(root.at("study").get<std::string>(), series));
   } catch (const json::parse_error& error) {
     throw InputError(fmt::format("{}: not JSON, from byte {} on; {}", file, error.byte, remedy));
   } catch (const json::exception& error) {

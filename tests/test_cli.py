@@ -651,6 +651,20 @@ class Machine(ProgramTest):
         self.assertEqual(os.listdir(device), [])
 
 
+class Readme(ProgramTest):
+    """The README shows what the program prints."""
+
+    def test_its_study_gives_the_output_it_shows(self):
+        readme = (ROOT / "README.md").read_text(encoding="utf-8")
+        study, = re.findall(r'```toml\n(\[study\]\nname = "first".*?)```', readme, re.S)
+        shown = re.findall(r"```console\n\$ build/acstudy (.*?)\n(.*?)```", readme, re.S)
+        self.assertEqual([command for command, _ in shown], ["explain first.toml", "run first.toml --out out"])
+        self.write("first.toml", study)
+        for command, output in shown:
+            with self.subTest(command):
+                self.assertEqual(self.acstudy(*command.split()).stdout, output)
+
+
 class Words(ProgramTest):
     def test_version_help_and_list_need_nothing(self):
         done = self.acstudy("--version")

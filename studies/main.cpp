@@ -155,11 +155,7 @@ int list(const std::string& what) {
   }
   if (what.empty() || what == "kernels") {
     heading("kernels");
-    fmt::print(
-        "{0}\"inverse\"                           Model I: eta(s) = 1/(delta s)\n"
-        "{0}{{ name = \"power\", alpha = A }}       eta(s) ~ s^-A; Model I: A < 2, Model II: A < 1\n"
-        "{0}\"cubic-spline\"                      Model II; Model I: its upwind half, doubled\n",
-        indent);
+    for (const NamedKernel& kernel : named_kernels) fmt::print("{}{:<35} {}\n", indent, kernel.written, kernel.meaning);
   }
   if (what.empty() || what == "integrators") {
     heading("integrators");

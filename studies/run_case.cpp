@@ -37,15 +37,6 @@ CaseResult run_kernel(const Case& c, const K& kernel, const std::atomic<bool>& s
   return run_scheme<MovingParticles, LocalDivergence>(c, kernel, stop);
 }
 
-CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
-  const KernelChoice& kernel = c.scheme.kernel;
-  if (kernel.name == "inverse") return run_kernel(c, InverseKernel{}, stop);
-  if (kernel.name == "cubic-spline") return run_kernel(c, CubicSplineKernel{}, stop);
-  if (kernel.name == "power" && kernel.alpha < 1.0) return run_kernel(c, IntegrablePowerKernel(kernel.alpha), stop);
-  if (kernel.name == "power") return run_kernel(c, PowerKernel(kernel.alpha), stop);
-  throw std::logic_error("no kernel is named " + kernel.name);
-}
-
 /// A case that cannot be run to its end for a numerical reason; whatever else goes wrong is not its fault and goes up.
 CaseResult failed(const std::string& reason) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +58,7 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop) {
   double total = 0.0;
   do {
     try {
-      result = run_once(c, stop);
+      result = with_kernel(c.scheme.kernel, [&](const auto& kernel) { return run_kernel(c, kernel, stop); });
     } catch (const std::domain_error& error) {
       result = failed(error.what());
     } catch (const std::runtime_error& error) {

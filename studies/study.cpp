@@ -196,7 +196,8 @@ KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model)
     name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
   }
   KernelChoice kernel{scheme.text("kernel", *name_node, "kernel = \"inverse\"")};
-  const auto& known = kernel_names();
+  std::vector<std::string_view> known;
+  for (const NamedKernel& named : named_kernels) known.push_back(named.name);
   if (std::find(known.begin(), known.end(), kernel.name) == known.end()) {
     scheme.place(*name_node)
         .fail(fmt::format("unknown kernel \"{}\"; known kernels: {}", kernel.name, fmt::join(known, ", ")));
@@ -212,7 +213,7 @@ KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model)
       inner.place(*alpha).fail(
           fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
     }
-    if (model == 2 && kernel.alpha >= 1.0) {
+    if (model == 2 && !integrable(kernel)) {
       inner.place(*alpha).fail(fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
     }
   } else if (kernel.name == "power" && table != nullptr) {
@@ -220,11 +221,11 @@ KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model)
   } else if (kernel.name == "power") {
     scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
   }
-  if (model == 2 && kernel.name == "inverse") {
+  if (model == 2 && !integrable(kernel)) {
     scheme.place(*name_node)
-        .fail(
-            "Model II needs an integrable kernel, and the inverse kernel is not; write \"cubic-spline\" or "
-            "{ name = \"power\", alpha = 0.5 } with alpha < 1");
+        .fail(fmt::format("Model II needs an integrable kernel, and the {} kernel is not; write \"cubic-spline\" or "
+                          "{{ name = \"power\", alpha = 0.5 }} with alpha < 1",
+                          kernel.name));
   }
   return kernel;
 }
@@ -381,11 +382,6 @@ std::vector<Case> make_cases(const Study& study, const Table& path_table, const 
 }  // namespace
 
 std::string KernelChoice::label() const { return name == "power" ? fmt::format("power({:g})", alpha) : name; }
-
-const std::vector<std::string>& kernel_names() {
-  static const std::vector<std::string> names = {"inverse", "power", "cubic-spline"};
-  return names;
-}
 
 std::string Case::key() const {
   const SceneText& text = scene->text();

@@ -15,6 +15,7 @@
 #include "mms/source.hpp"
 #include "reports/orders.hpp"
 #include "solver/integrators.hpp"
+#include "studies/kernel_choice.hpp"
 
 namespace acstudy {
 
@@ -22,12 +23,6 @@ namespace acstudy {
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-struct KernelChoice {
-  std::string name;    ///< "inverse", "power" or "cubic-spline"
-  double alpha = 0.0;  ///< of the power family
-  std::string label() const;
 };
 
 struct SchemeChoice {
@@ -108,8 +103,5 @@ Study read_study(const std::string& file);
 
 /// The same from text; `file` is what messages name.
 Study parse_study(const std::string& text, const std::string& file);
-
-/// Kernel names that a study can use.
-const std::vector<std::string>& kernel_names();
 
 }  // namespace acstudy

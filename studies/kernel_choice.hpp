@@ -1,0 +1,50 @@
+#pragma once
+
+/// @file
+/// The kernels that a study can name: the one place where a name becomes a type.
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "solver/kernels.hpp"
+
+namespace acstudy {
+
+struct KernelChoice {
+  std::string name;
+  double alpha = 0.0;  ///< of the power family
+  /// "inverse", "power(0.5)".
+  std::string label() const;
+};
+
+struct NamedKernel {
+  std::string_view name;
+  std::string_view written;  ///< as a study writes it
+  std::string_view meaning;
+};
+
+inline constexpr NamedKernel named_kernels[] = {
+    {"inverse", "\"inverse\"", "Model I: eta(s) = 1/(delta s)"},
+    {"power", "{ name = \"power\", alpha = A }", "eta(s) ~ s^-A; Model I: A < 2, Model II: A < 1"},
+    {"cubic-spline", "\"cubic-spline\"", "Model II; Model I: its upwind half, doubled"},
+};
+
+/// Calls `visit` with the kernel itself and returns what it returns.
+/// @throws std::logic_error for a name that is none
+template <class Visit>
+auto with_kernel(const KernelChoice& choice, Visit&& visit) {
+  if (choice.name == "inverse") return visit(InverseKernel{});
+  if (choice.name == "cubic-spline") return visit(CubicSplineKernel{});
+  if (choice.name == "power" && choice.alpha < 1.0) return visit(IntegrablePowerKernel(choice.alpha));
+  if (choice.name == "power") return visit(PowerKernel(choice.alpha));
+  throw std::logic_error("no kernel is named " + choice.name);
+}
+
+/// True if Model II can use the kernel.
+inline bool integrable(const KernelChoice& choice) {
+  return with_kernel(choice, []<class K>(const K&) { return IntegrableKernel<K>; });
+}
+
+}  // namespace acstudy

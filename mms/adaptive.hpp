@@ -13,7 +13,7 @@ namespace acstudy {
 ///
 /// @param rule   gsl (QAWS, QAG) or boost (tanh-sinh)
 /// @param points incremented by the number of integrand evaluations
-/// @throws std::runtime_error if the quadrature does not reach its tolerance of 1e-14
+/// @throws std::runtime_error if the quadrature, asked for 1e-14, estimates its relative error at more than 1e-11
 double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model, SourceRule rule, double x, double t,
                                  std::int64_t& points);
 

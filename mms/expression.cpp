@@ -60,7 +60,9 @@ int record_number(const char* text, int* position, double* value) {
   if (!(std::isdigit(static_cast<unsigned char>(*text)) || *text == '.')) return 0;
   double number = 0.0;
   const auto [end, error] = std::from_chars(text, text + std::strlen(text), number);
-  if (error != std::errc()) return 0;
+  if (error != std::errc()) {
+    throw ExpressionError(static_cast<std::size_t>(*position), "a number that double precision cannot hold");
+  }
   *value = record({.op = Op::constant, .constant = number});
   *position += static_cast<int>(end - text);
   return 1;

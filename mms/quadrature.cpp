@@ -1,10 +1,14 @@
 #include "mms/quadrature.hpp"
 
+#include <fmt/format.h>
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 namespace acstudy {
 
@@ -12,11 +16,18 @@ namespace {
 
 /// Nodes and weights of int_lower^upper f(z) (z - lower)^exponent dz.
 Rule jacobi_rule(double lower, double upper, double exponent, std::size_t points) {
+  // GSL would end the program; what it returns is looked at here.
+  [[maybe_unused]] static gsl_error_handler_t* const aborting = gsl_set_error_handler_off();
   const std::unique_ptr<gsl_integration_fixed_workspace, decltype(&gsl_integration_fixed_free)> workspace(
       gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, points, lower, upper, 0.0, exponent),
       gsl_integration_fixed_free);
+  const auto failed = [&] {
+    return std::domain_error(fmt::format("no Gauss-Jacobi rule for the weight z^{:g} of this kernel", exponent));
+  };
+  if (workspace == nullptr) throw failed();
   const double* const node = gsl_integration_fixed_nodes(workspace.get());
   const double* const weight = gsl_integration_fixed_weights(workspace.get());
+  if (!std::all_of(weight, weight + points, [](double w) { return std::isfinite(w); })) throw failed();
   return {{node, node + points}, {weight, weight + points}};
 }
 

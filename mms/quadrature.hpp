@@ -31,6 +31,7 @@ KernelProfile profile(K kernel) {
 
 /// A rule for int_0^1 f(z) z eta(z) dz, split at the kernel's breakpoints: Gauss-Jacobi on the piece at the origin,
 /// which absorbs its singularity, Gauss-Legendre on the other.
+/// @throws std::domain_error if the singularity is beyond double precision (alpha = -200, say)
 Rule first_moment_rule(const KernelProfile& kernel, std::size_t points_per_piece);
 
 /// The n-point Gauss rule for E(s) = int_s^1 eta(z) dz on (0, 1); its weights sum to one.

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace acstudy {
 
@@ -70,10 +72,11 @@ void Scene::check_periodic(const char* field, const Expression& expression) cons
     expression.evaluate(shifted, {t}, {there, {}, {}});
     double scale = 0.0, gap = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (!std::isfinite(here[i])) {
+      for (const auto& [value, at] : {std::pair(here[i], x[i]), std::pair(there[i], shifted[i])}) {
+        if (std::isfinite(value)) continue;
         throw SceneError(field, 0,
                          fmt::format("{} is {} at x = {:.6g}; it must be finite everywhere", field,
-                                     std::isnan(here[i]) ? std::abs(here[i]) : here[i], x[i]));
+                                     std::isnan(value) ? std::abs(value) : value, at));
       }
       scale = std::max(scale, std::abs(here[i]));
       gap = std::max(gap, std::abs(here[i] - there[i]));
@@ -100,7 +103,8 @@ void Scene::check_flow() const {
             fmt::format("the flow at t = 0 takes x = {:.6g} to {:.6g}; it must leave it there", x[i], position[i]));
       }
       scale = std::max(scale, std::abs(b[i]));
-      gap = std::max(gap, std::isfinite(speed[i]) ? std::abs(speed[i] - b[i]) : std::abs(speed[i]));
+      const double difference = std::abs(speed[i] - b[i]);
+      gap = std::max(gap, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
     }
     if (!(gap <= 1e-9 * std::max(scale, 1e-300))) {
       throw SceneError("flow", 0,

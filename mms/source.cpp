@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "mms/adaptive.hpp"
@@ -211,7 +212,8 @@ double disagreement(const Scene& scene, Source& coarse, Source& fine) {
     fine.evaluate(t, b);
     scene.u(x, t, u, u_x, u_t);
     for (std::size_t i = 0; i < count; ++i) {
-      gap = std::max(gap, std::abs(a[i] - b[i]));
+      const double difference = std::abs(a[i] - b[i]);
+      gap = std::max(gap, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
       const double flux = std::abs(velocity.c_hat[i] * u_x[i]) + std::abs(velocity.c_hat_prime[i] * u[i]);
       scale = std::max({scale, std::abs(b[i]), std::abs(u_t[i]) + flux});
     }

@@ -74,7 +74,7 @@ def scheme_styles(studies):
             families.append(family)
         i = len(styles)
         styles[scheme] = Style(COLORS[i % len(COLORS)], MARKERS[families.index(family) % len(MARKERS)],
-                               DASHES[i % len(DASHES)], scheme.divergence == "local")
+                               DASHES[i % len(DASHES)], scheme.divergence != "nonlocal")
     return styles
 
 

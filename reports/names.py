@@ -21,7 +21,8 @@ def scheme_names(schemes):
         if len(kernels[scheme.model]) > 1 or several_alphas:
             alpha = f" (α = {scheme.alpha:.4g})" if scheme.alpha is not None else ""
             parts.append(f"{scheme.kernel} kernel{alpha}")
-        parts.append(f"{scheme.divergence} divergence")
+        if scheme.divergence:
+            parts.append(f"{scheme.divergence} divergence")
         if len(mus[scheme.model, scheme.kernel]) > 1:
             parts.append(f"μ = {scheme.mu:.4g}" if scheme.mu is not None else "no μ")
         written[scheme] = ", ".join(parts)

@@ -157,11 +157,14 @@ void judge_order(std::span<const Level> levels, double theory, Judgement& result
     return conclude(Verdict::inconclusive,
                     fmt::format("the error has not settled: pairwise orders {}", listed(pairwise)));
   }
-  if (last < 0.25 * theory) {
+  const bool narrow = result.high - result.low <= 2.0;
+  const bool falling = std::is_sorted(pairwise.rbegin(), pairwise.rend());
+  const bool stops = last <= order_tolerance || last < 0.25 * *std::max_element(pairwise.begin(), pairwise.end());
+  if (stops && (falling || narrow)) {
     return conclude(Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}",
                                                     levels.back().error, listed(pairwise)));
   }
-  if (result.high - result.low > 2.0 && !approaching) {
+  if (!narrow && !approaching) {
     return conclude(Verdict::inconclusive,
                     fmt::format("{}: the interval is too wide to judge; pairwise orders {}", fitted, listed(pairwise)));
   }

@@ -3,6 +3,8 @@
 Reading only: nothing here computes, draws or writes. The layout is the format "acstudy-1" that `acstudy run` writes.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from pathlib import Path
 import math
@@ -22,7 +24,7 @@ class ResultError(Exception):
 class Scheme:
     """What is discretized with what: everything of a scheme but the horizon and the steps."""
     model: int          # 1: upwind kernel, 2: renormalized SPH with nonlocal viscosity
-    divergence: str     # "local" | "nonlocal"
+    divergence: str     # "local" | "nonlocal", empty where particles stand still
     kernel: str
     alpha: float | None  # exponent of the power kernel
     mu: float | None     # viscosity bound of Model II
@@ -142,7 +144,8 @@ def _scene(group):
 
 
 def _series(group):
-    scheme = Scheme(model=int(_number(group, "model")), divergence=_text(group, "divergence"),
+    standing = _text(group, "motion") == "standing"  # b = 0, so both divergence forms are one
+    scheme = Scheme(model=int(_number(group, "model")), divergence="" if standing else _text(group, "divergence"),
                     kernel=_text(group, "kernel"), alpha=_optional(group, "alpha"), mu=_optional(group, "mu"))
     texts = ("path", "source", "delta_text", "step_text", "integrator", "theory_variable", "theory_statement",
              "verdict", "expected", "reason")

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace acstudy {
 
 void find_windows(std::span<const double> x, double period, double delta, Windows& windows) {
   const std::ptrdiff_t n = std::ssize(x);
-  const double inside = delta * (1.0 + horizon_tie_tolerance);
+  // Beyond some 1e5 particles a tie is lost to the round-off of the positions themselves.
+  const double largest = std::max(std::abs(x.front()), std::abs(x.back()) + period);
+  const double inside = delta * (1.0 + horizon_tie_tolerance) + 4.0 * std::numeric_limits<double>::epsilon() * largest;
   windows.left.resize(x.size());
   windows.right.resize(x.size());
   windows.widest = 1;

@@ -99,7 +99,7 @@ CaseResult advance(const Case& c, Scheme scheme, Source& source, const std::atom
   result.seconds = seconds_since(start);
   if (stop.load(std::memory_order_relaxed)) return result;
   if (done < c.steps && result.failure.empty()) {
-    result.failure = "the solution is no longer finite after step " + std::to_string(done);
+    result.blow_up = "the solution is no longer finite after step " + std::to_string(done);
   }
 
   const auto x = motion.at(scene.T());
@@ -119,8 +119,10 @@ CaseResult advance(const Case& c, Scheme scheme, Source& source, const std::atom
   }
   result.error_l1 = l1 / scene.period();
   result.error_l2 = std::sqrt(l2 / scene.period());
-  if (!std::isfinite(result.error_linf) && result.failure.empty()) result.failure = "the solution is not finite at T";
-  if (!result.failure.empty()) {
+  if (!std::isfinite(result.error_linf) && result.failure.empty() && result.blow_up.empty()) {
+    result.blow_up = "the solution is not finite at T";
+  }
+  if (!result.failure.empty() || !result.blow_up.empty()) {
     result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
   }
   result.work = scheme.work();

@@ -17,7 +17,11 @@ std::string CheckedSeries::remark() const {
 std::vector<CheckedSeries> check_file(const std::string& file) {
   std::vector<CheckedSeries> all;
   for (SeriesRecord& record : read_json(file)) {
-    const Judgement judgement = judge(record.levels, record.theory_order);
+    Judgement judgement = judge(record.levels, record.theory_order);
+    if (!record.failure.empty()) {
+      judgement.verdict = Verdict::inconclusive;
+      judgement.reason = not_computed(record.failure);
+    }
     all.push_back({std::move(record), judgement});
   }
   return all;

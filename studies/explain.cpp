@@ -76,6 +76,11 @@ std::string explain(const Study& study) {
                          c.cfl() > 1.0 ? "  beyond the bound 1 of the stability lemma" : "");
       ++count;
     }
+    if (series.scheme.model == 2 && series.scheme.kernel.name != "cubic-spline") {
+      out +=
+          "  the bound of Lemma 3.3, 1, is not enough for every kernel: see the section on Model II of "
+          "docs/equations.md\n";
+    }
     if (series.scheme.mu && *series.scheme.mu < study.scene->max_relative_velocity()) {
       out += fmt::format("  mu is below max|c - b| = {:.6g}: Lemma 3.3 does not promise stability\n",
                          study.scene->max_relative_velocity());

@@ -39,6 +39,9 @@ int available_processors() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+/// A line on stderr; whether anybody can read it must not matter to the exit code.
+void say(const std::string& message) { std::fputs(("acstudy: " + message + "\n").c_str(), stderr); }
+
 std::vector<Study> read_studies(const std::vector<std::string>& files) {
   std::vector<Study> studies;
   std::set<std::string> names;
@@ -110,7 +113,8 @@ int run(const std::vector<std::string>& files, RunOptions options) {
       rows.push_back({passes, study.study->name, series.series->label(), series.judgement, series.series->expected,
                       series.judgement.reason});
       if (!passes) {
-        status = std::max<int>(status, series.judgement.verdict == Verdict::unstable ? numerical_failure : departs);
+        const bool numerical = series.failed() || series.judgement.verdict == Verdict::unstable;
+        status = std::max<int>(status, numerical ? numerical_failure : departs);
       }
     }
   }
@@ -118,7 +122,7 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   fmt::print("{} cases computed, {} taken from the store; results in {}\n", result.computed, result.reused,
              options.out.string());
   if (result.interrupted) {
-    fmt::print(stderr, "acstudy: interrupted; finished cases are stored, and the same command goes on from them\n");
+    say("interrupted; finished cases are stored, and the same command goes on from them");
     return interrupted;
   }
   return status;
@@ -218,12 +222,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto used = app.get_subcommands();
     if (used.empty() && argc > 1) {
-      fmt::print(stderr, "acstudy: unknown command \"{}\"; write run, check, explain or list; see acstudy --help\n",
-                 argv[1]);
+      say(fmt::format("unknown command \"{}\"; write run, check, explain or list; see acstudy --help", argv[1]));
       return bad_input;
     }
-    fmt::print(stderr, "acstudy: {}; see acstudy {}--help\n", error.what(),
-               used.empty() ? "" : used.front()->get_name() + " ");
+    say(fmt::format("{}; see acstudy {}--help", error.what(), used.empty() ? "" : used.front()->get_name() + " "));
     return bad_input;
   }
 
@@ -244,10 +246,10 @@ int main(int argc, char** argv) {
       throw StoreError("cannot write to standard output: " + std::string(std::strerror(errno)));
     return status;
   } catch (const InputError& error) {
-    fmt::print(stderr, "acstudy: {}\n", error.what());
+    say(error.what());
     return bad_input;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "acstudy: {}\n", error.what());
+    say(error.what());
     return machine_failure;
   }
 }

@@ -71,6 +71,7 @@ json series_json(const Study& study, const SeriesResult& result) {
                   {"quadrature_points", r.quadrature_points},
                   {"velocity_evaluations", r.work.velocity_evaluations},
                   {"flow_evaluations", r.flow_evaluations}}}};
+    if (!r.blow_up.empty()) one["blow_up"] = r.blow_up;
     if (!r.failure.empty()) one["failure"] = r.failure;
     out["cases"].push_back(one);
   }
@@ -121,6 +122,7 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   for (const json& one : series.at("cases")) {
     const double h = real(one.at("h")), delta = real(one.at("delta"));
     record.levels.push_back({by_h ? h : std::max(h, delta), real(one.at("error_linf"))});
+    if (record.failure.empty()) record.failure = one.value("failure", "");
   }
   record.theory_order = real(theory.at("order"));
   record.expected = verdict(series.at("expected"));

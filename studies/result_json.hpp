@@ -20,6 +20,7 @@ struct SeriesRecord {
   double theory_order;
   Verdict expected;
   std::string verdict;
+  std::string failure;  ///< of the first case that could not be computed
   std::size_t cases_planned;
 };
 

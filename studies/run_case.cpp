@@ -1,6 +1,7 @@
 #include "studies/run_case.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -68,7 +69,7 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop) {
     seconds.push_back(result.seconds);
     source_seconds.push_back(result.source_seconds);
     total += result.seconds;
-  } while (seconds.size() < most_repeats && total < enough_seconds && result.failure.empty());
+  } while (seconds.size() < most_repeats && total < enough_seconds && std::isfinite(result.error_linf));
 
   const auto median = [](std::vector<double> values) {
     std::sort(values.begin(), values.end());

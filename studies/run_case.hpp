@@ -15,7 +15,8 @@ namespace acstudy {
 
 struct CaseResult {
   bool completed = false;  ///< false: interrupted, nothing else is meaningful
-  std::string failure;     ///< why the run ended before T, if it did; the errors are then NaN
+  std::string blow_up;     ///< when the solution ceased to be finite, if it did; the errors are then NaN
+  std::string failure;     ///< why there is no solution for another reason, if so; the errors are then NaN
   double error_linf = 0.0;
   double error_l1 = 0.0, error_l2 = 0.0;  ///< weighted by cell width, divided by the period
 

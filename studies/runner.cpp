@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <map>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <unordered_map>
 
@@ -30,7 +32,7 @@ class Progress {
  public:
   Progress(std::size_t jobs, double work) : jobs_(jobs), work_(work), on_terminal_(isatty(STDERR_FILENO) != 0) {}
   ~Progress() {
-    if (on_terminal_ && shown_) fmt::print(stderr, "\r\033[K");
+    if (shown_) std::fputs("\r\033[K", stderr);
   }
 
   void done(double work) {
@@ -39,8 +41,10 @@ class Progress {
     if (!on_terminal_) return;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const double left = finished_work_ > 0.0 ? elapsed * (work_ - finished_work_) / finished_work_ : 0.0;
-    fmt::print(stderr, "\r\033[K{} of {} cases, {:.0f} s, about {:.0f} s left", finished_, jobs_, elapsed,
-               std::ceil(left));
+    // fputs and not fmt::print, which throws: a terminal that has gone away must not end the run.
+    const std::string line = fmt::format("\r\033[K{} of {} cases, {:.0f} s, about {:.0f} s left", finished_, jobs_,
+                                         elapsed, std::ceil(left));
+    std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
     shown_ = true;
   }
@@ -151,15 +155,25 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
     }
   };
   std::vector<std::thread> threads;
-  for (int t = 1; t < options.jobs; ++t) threads.emplace_back(worker);
+  try {
+    for (std::size_t t = 1; t < std::min<std::size_t>(options.jobs, jobs.size()); ++t) threads.emplace_back(worker);
+  } catch (const std::system_error&) {
+    // The machine gives no more threads; those that run share the work.
+  }
   worker();
   for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
 
+  // What is done is stored before anything is said of what went wrong.
   run.interrupted = stop;
   for (std::size_t s = 0; s < studies.size(); ++s) {
-    if (open_cases[s] > 0) finish(s);
+    if (open_cases[s] == 0) continue;
+    try {
+      finish(s);
+    } catch (...) {
+      if (!failure) failure = std::current_exception();
+    }
   }
+  if (failure) std::rethrow_exception(failure);
   return run;
 }
 

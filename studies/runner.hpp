@@ -15,7 +15,7 @@ namespace acstudy {
 
 struct RunOptions {
   std::filesystem::path out = "reports/out";
-  int jobs = 0;        ///< 0: as many as the machine has processors for this process
+  int jobs = 1;        ///< cases that run at the same time
   bool fresh = false;  ///< run stored cases again
   std::string command;
 };

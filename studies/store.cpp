@@ -98,6 +98,7 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
     const CaseResult& r = result.results[i];
     const h5::Handle one = h5::create_group(cases, std::to_string(series.cases[i].N));
     h5::write_text(one, "key", storage_key(series.cases[i]));
+    h5::write_text(one, "blow_up", r.blow_up);
     h5::write_text(one, "failure", r.failure);
     h5::write_column<double>(one, "x", r.x);
     h5::write_column<double>(one, "u", r.u);
@@ -168,6 +169,8 @@ std::vector<std::size_t> SeriesResult::completed() const {
   return indices;
 }
 
+std::string not_computed(const std::string& failure) { return "a case could not be computed: " + failure; }
+
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results) {
   std::vector<Level> levels;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -175,9 +178,15 @@ Judgement judge_series(const Series& series, const std::vector<CaseResult>& resu
     if (results[i].completed) levels.push_back({series.variable(c.h, c.delta), results[i].error_linf});
   }
   Judgement judgement = judge(levels, series.theory.order);
-  const auto failed =
-      std::find_if(results.begin(), results.end(), [](const CaseResult& result) { return !result.failure.empty(); });
-  if (failed != results.end()) judgement.reason += ": " + failed->failure;
+  const auto first_with = [&](std::string CaseResult::*text) {
+    return std::find_if(results.begin(), results.end(), [&](const CaseResult& r) { return !(r.*text).empty(); });
+  };
+  if (const auto failed = first_with(&CaseResult::failure); failed != results.end()) {
+    judgement.verdict = Verdict::inconclusive;
+    judgement.reason = not_computed(failed->failure);
+  } else if (const auto unstable = first_with(&CaseResult::blow_up); unstable != results.end()) {
+    judgement.reason += ": " + unstable->blow_up;
+  }
   return judgement;
 }
 
@@ -210,6 +219,7 @@ StoredCases load_cases(const fs::path& file) {
         const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
         CaseResult& result = results[i];
         result.completed = true;
+        result.blow_up = h5::read_text(one, "blow_up");
         result.failure = h5::read_text(one, "failure");
         result.x = h5::read_column<double>(one, "x");
         result.u = h5::read_column<double>(one, "u");

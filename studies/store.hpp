@@ -3,6 +3,7 @@
 /// @file
 /// Result files: one HDF5 file per study with everything, a JSON file beside it without the fields.
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -28,8 +29,18 @@ struct SeriesResult {
   Judgement judgement;
   /// Indices of the cases that have a result.
   std::vector<std::size_t> completed() const;
-  bool as_expected() const { return meets(judgement.verdict, series->expected); }
+  /// The verdict is the expected one, and no case is missing.
+  bool as_expected() const {
+    return completed().size() == series->cases.size() && meets(judgement.verdict, series->expected);
+  }
+  /// A case has no solution for a reason other than a blow-up.
+  bool failed() const {
+    return std::any_of(results.begin(), results.end(), [](const CaseResult& r) { return !r.failure.empty(); });
+  }
 };
+
+/// The reason of a series of which a case could not be computed; its verdict is `inconclusive`.
+std::string not_computed(const std::string& failure);
 
 /// Judges a series on its completed cases.
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results);

@@ -381,7 +381,7 @@ std::vector<Case> make_cases(const Study& study, const Table& path_table, const 
 
 }  // namespace
 
-std::string KernelChoice::label() const { return name == "power" ? fmt::format("power({:g})", alpha) : name; }
+std::string KernelChoice::label() const { return name == "power" ? fmt::format("power({})", alpha) : name; }
 
 std::string Case::key() const {
   const SceneText& text = scene->text();
@@ -501,7 +501,10 @@ Study parse_study(const std::string& text, const std::string& file) {
       const Case& finest = series.cases.back();
       const bool fixed = finest.delta == series.cases.front().delta && series.cases.size() > 1;
       series.theory = theory_for(scheme, standing, path.nonlocal_source, fixed, finest.delta < finest.h);
-      if (path.order) series.theory.order = *path.order;
+      if (path.order) {
+        series.theory.order = *path.order;
+        series.theory.statement = "given by the study";
+      }
       series.expected = path.expect.value_or(series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
       study.series.push_back(std::move(series));
     }
@@ -514,6 +517,11 @@ Study read_study(const std::string& file) {
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) {
     throw InputError(fmt::format("{}: cannot read the study file; name an existing, non-empty file", file));
+  }
+  constexpr std::size_t most = 60'000;  // an attribute of the result file holds it
+  if (text.str().size() > most) {
+    throw InputError(
+        fmt::format("{}: {} bytes; a study file may have at most {}: split it", file, text.str().size(), most));
   }
   return parse_study(text.str(), file);
 }

@@ -581,7 +581,7 @@ class Gate(ProgramTest):
         series, = self.result(parse_constant=self.fail)["series"]
         for case in series["cases"]:
             self.assertIsNone(case["error_linf"])
-            self.assertIn("no longer finite after step", case["failure"])
+            self.assertIn("no longer finite after step", case["blow_up"])
         self.assertEqual(series["observed"]["pairwise"], [None, None])
         self.assertEqual(series["verdict"], "unstable")
 
@@ -649,6 +649,25 @@ class Machine(ProgramTest):
         done = self.run_study(edit(STUDY, (LEVELS, "[16, 32, 64, 128, 256, 512]")), out=device)
         self.assert_machine_failure(done, str(device))
         self.assertEqual(os.listdir(device), [])
+
+
+class NotComputed(ProgramTest):
+    """A case without a solution is no blow-up, and takes nothing else with it."""
+
+    ROUGH = edit(STUDY, (USE, 'period = "2*pi"\nT = 1\nc = "1"\nu = "cos(400*x)"'), ('"4*h"', "2.5"),
+                 ('source = "local"', 'source = "nonlocal"'))
+
+    def test_it_is_inconclusive_and_exits_3_even_where_a_blow_up_is_expected(self):
+        for text in (self.ROUGH, edit(self.ROUGH, ('"nonlocal"', '"nonlocal"\nexpect = "unstable"'))):
+            done = self.run_study(text, "--fresh")
+            self.assertEqual(done.returncode, 3, done.stdout)
+            self.assertIn("inconclusive", done.stdout)
+            self.assertIn("a case could not be computed: no Gauss rule", done.stdout)
+            self.assertEqual(self.acstudy("check", "out/tiny.json").returncode, 1)
+
+    def test_a_closed_stderr_changes_no_exit_code(self):
+        done = subprocess.run(["sh", "-c", f"'{ACSTUDY}' run none.toml 2>&-"], cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
 
 
 class Readme(ProgramTest):

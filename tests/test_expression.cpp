@@ -375,3 +375,10 @@ TEST_CASE("a bad text is refused with its place and its reason") {
     CHECK_THROWS_AS(Expression(text, {"x", "t"}), ExpressionError);
   }
 }
+
+TEST_CASE("a number beyond double precision is refused, not taken for another value") {
+  for (const char* text : {"x + 1e-400", "1e400*x"}) {
+    CAPTURE(text);
+    CHECK_THROWS_AS(Expression(text, {"x"}), ExpressionError);
+  }
+}

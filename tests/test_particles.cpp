@@ -157,3 +157,12 @@ TEST_CASE("particles without a sound interval or horizon are refused") {
     CHECK_THROWS_WITH(Particles(10, 1.0, delta), "the horizon must be positive and below half a period");
   }
 }
+
+TEST_CASE("a horizon of four spacings ties for every one of a million particles") {
+  constexpr std::size_t N = 1'000'000;
+  constexpr double period = 6.283185307179586;
+  Windows windows;
+  find_windows(uniform_positions(N, period), period, 4.0 * period / N, windows);
+  CHECK(std::all_of(windows.right.begin(), windows.right.end(), [](int r) { return r == 4; }));
+  CHECK(std::all_of(windows.left.begin(), windows.left.end(), [](int l) { return l == 4; }));
+}

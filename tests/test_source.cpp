@@ -224,3 +224,25 @@ TEST_CASE("a field that is smooth on the scale of the horizon is not refused, ho
       {.name = "", .period = "2*pi", .T = "1", .c = "1", .b = std::nullopt, .u = "cos(400*x)", .flow = std::nullopt});
   CHECK_NOTHROW(nonlocal_source(scene, {1, false, profile(InverseKernel{}), 1e-3, 0.0}));
 }
+
+TEST_CASE("short waves: the adaptive references agree with the fixed rule below and above their switch of formulas") {
+  const Scene scene(
+      {.name = "", .period = "2*pi", .T = "1", .c = "1", .b = std::nullopt, .u = "cos(100*x)", .flow = std::nullopt});
+  const std::vector<double> x = {0.3, 1.7, 4.4};
+  for (const int number : {1, 2}) {
+    for (const double delta : {1e-3, 0.0099, 0.1}) {
+      const NonlocalModel model{number, false, profile(CubicSplineKernel{}), delta, 1.0};
+      const auto f = values(*nonlocal_source(scene, model), x, 0.6);
+      for (const SourceRule rule : {SourceRule::gsl, SourceRule::boost}) {
+        CAPTURE(number, delta);
+        // Round-off of the argument 100 x, and of the differences of u over 1e-3 of the period.
+        CHECK(gap(f, values(*nonlocal_source(scene, model, rule), x, 0.6)) < 1e-11);
+      }
+    }
+  }
+}
+
+TEST_CASE("a kernel too singular for its Gauss rule is refused, not aborted") {
+  const Scene scene(named_scenes()[2]);
+  CHECK_THROWS_AS(nonlocal_source(scene, {1, false, profile(PowerKernel(-200.0)), 0.1, 0.0}), std::domain_error);
+}

@@ -18,6 +18,7 @@
 #include "studies/check.hpp"
 #include "studies/explain.hpp"
 #include "studies/runner.hpp"
+#include "studies/study_file.hpp"
 
 namespace {
 

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "studies/study_file.hpp"
+
 namespace acstudy {
 
 namespace {

@@ -1,12 +1,11 @@
 #pragma once
 
 /// @file
-/// Study files: what a study asks for, read and checked; its series and cases.
+/// What a study asks for: its schemes and paths, its series and cases.
 
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,12 +17,6 @@
 #include "studies/kernel_choice.hpp"
 
 namespace acstudy {
-
-/// Bad input; `what()` is the complete message "FILE:LINE:COL: what is wrong, the value received, the remedy".
-class InputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct SchemeChoice {
   int model;
@@ -96,12 +89,5 @@ struct Study {
   SourceRule source_rule;
   std::vector<Series> series;
 };
-
-/// Reads a study file and checks all of it, every case included.
-/// @throws InputError
-Study read_study(const std::string& file);
-
-/// The same from text; `file` is what messages name.
-Study parse_study(const std::string& text, const std::string& file);
 
 }  // namespace acstudy

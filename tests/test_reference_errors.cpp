@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "studies/run_case.hpp"
-#include "studies/study.hpp"
+#include "studies/study_file.hpp"
 #include "tests/catch.hpp"
 
 using namespace acstudy;

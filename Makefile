@@ -40,7 +40,7 @@ check: build  ## the gates: exit 1 if any verdict departs from what its study ex
 	@$(acstudy) check "$(OUT)"/*.json
 
 bench: build  ## error against run time with one case at a time, so that none disturbs another
-	@$(acstudy) run studies/*.toml --out "$(OUT)/bench" --jobs 1 --fresh
+	@$(acstudy) run studies/*.toml --out "$(OUT)/bench" --jobs 1 --repeats 5 --fresh
 	$(setup) report
 	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/bench"
 

@@ -202,6 +202,10 @@ int main(int argc, char** argv) {
       ->type_name("N")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  run_command->add_option("--repeats", options.repeats, "run each case at least N times, for its run time and spread")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   run_command->add_flag("--fresh", options.fresh, "run stored cases again");
 
   CLI::App* const check_command =

@@ -50,7 +50,7 @@ CaseResult failed(const std::string& reason) {
 
 }  // namespace
 
-CaseResult run_case(const Case& c, const std::atomic<bool>& stop) {
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats) {
   constexpr std::size_t most_repeats = 5;
   constexpr double enough_seconds = 0.1;
 
@@ -69,7 +69,8 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop) {
     seconds.push_back(result.seconds);
     source_seconds.push_back(result.source_seconds);
     total += result.seconds;
-  } while (seconds.size() < most_repeats && total < enough_seconds && std::isfinite(result.error_linf));
+  } while (std::isfinite(result.error_linf) &&
+           (seconds.size() < least_repeats || (seconds.size() < most_repeats && total < enough_seconds)));
 
   const auto median = [](std::vector<double> values) {
     std::sort(values.begin(), values.end());

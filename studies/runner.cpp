@@ -139,7 +139,7 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
         job = &jobs[next++];
       }
       try {
-        const CaseResult result = run_case(*job->c, stop);
+        const CaseResult result = run_case(*job->c, stop, options.repeats);
         const std::lock_guard lock(mutex);
         if (!result.completed) return;
         ++run.computed;

@@ -670,6 +670,14 @@ class NotComputed(ProgramTest):
         self.assertEqual(done.returncode, 2)
 
 
+class Timing(ProgramTest):
+    def test_repeats_is_the_least_number_of_timed_runs(self):
+        self.run_study(STUDY, "--repeats", "7")
+        for case in self.result()["series"][0]["cases"]:
+            self.assertGreaterEqual(case["repeats"], 7)
+            self.assertTrue(0 < case["seconds_low"] <= case["seconds"] <= case["seconds_high"])
+
+
 class Readme(ProgramTest):
     """The README shows what the program prints."""
 
@@ -690,7 +698,7 @@ class Words(ProgramTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertRegex(done.stdout, r"\Aacstudy \d+\.\d+\.\d+\S*\n\Z")
         for arguments, words in ((("--help",), ("run", "check", "explain", "list", "--version", "Exit codes", "130")),
-                                 (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--fresh")),
+                                 (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--repeats", "--fresh")),
                                  (("check", "--help"), ("FILE.json", "exit 1")),
                                  (("explain", "--help"), ("STUDY.toml",)),
                                  (("list", "--help"), ("schemes", "kernels", "integrators", "scenes"))):

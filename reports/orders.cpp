@@ -29,6 +29,8 @@ constexpr NamedVerdict names[] = {
     {Verdict::diverges, "diverges"},
     {Verdict::unstable, "unstable"},
     {Verdict::inconclusive, "inconclusive"},
+    {Verdict::holds, "holds"},
+    {Verdict::violated, "violated"},
 };
 
 /// Errors of this size are round-off of a solution of order one, accumulated over a run.

@@ -27,6 +27,8 @@ enum class Verdict {
   diverges,        ///< the error grows under refinement
   unstable,        ///< an error is not finite, or grows exponentially under refinement
   inconclusive,    ///< too few levels, no error to speak of, or too wide an interval
+  holds,           ///< a bound or identity is met: not of an order
+  violated,        ///< it is not
 };
 
 std::string_view name_of(Verdict verdict);

@@ -13,6 +13,7 @@
 #include "solver/integrators.hpp"
 #include "solver/particles.hpp"
 #include "studies/run_case.hpp"
+#include "studies/scheme.hpp"
 
 namespace acstudy {
 
@@ -44,8 +45,8 @@ class MovingParticles {
 };
 
 /// Integrates from the exact initial values to T and measures the error; one repeat.
-template <class Motion, class Scheme>
-CaseResult advance(const Case& c, Scheme scheme, Source& source, const std::atomic<bool>& stop) {
+template <class Motion>
+CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::atomic<bool>& stop) {
   using Clock = std::chrono::steady_clock;
   const auto seconds_since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -62,7 +63,7 @@ CaseResult advance(const Case& c, Scheme scheme, Source& source, const std::atom
 
   const auto place = [&](double t) {
     particles.place(motion.at(t));
-    scheme.place(particles, scene);
+    scheme.place(particles);
     const auto start = Clock::now();
     source.place(particles.x.values());
     result.source_seconds += seconds_since(start);

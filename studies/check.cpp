@@ -14,9 +14,9 @@ std::string CheckedSeries::remark() const {
   return judgement.reason;
 }
 
-std::vector<CheckedSeries> check_file(const std::string& file) {
+std::vector<CheckedSeries> check_series(std::vector<SeriesRecord> records) {
   std::vector<CheckedSeries> all;
-  for (SeriesRecord& record : read_json(file)) {
+  for (SeriesRecord& record : records) {
     Judgement judgement = judge(record.levels, record.theory_order);
     if (!record.failure.empty()) {
       judgement.verdict = Verdict::inconclusive;

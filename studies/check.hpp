@@ -23,7 +23,6 @@ struct CheckedSeries {
   std::string remark() const;
 };
 
-/// @throws InputError if the file is no result file
-std::vector<CheckedSeries> check_file(const std::string& file);
+std::vector<CheckedSeries> check_series(std::vector<SeriesRecord> records);
 
 }  // namespace acstudy

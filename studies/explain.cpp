@@ -44,7 +44,21 @@ std::string left_out(const Study& study) {
 
 }  // namespace
 
+namespace {
+
+/// A study that is judged by what it measures.
+std::string explain_measurements(const Study& study) {
+  std::string out = fmt::format("{} - {} ({})\n\n", study.name, study.title, study.kind);
+  std::size_t cases = 0;
+  for (const Series& series : study.series) cases += series.cases.size();
+  for (const Measurement& measurement : study.measurements) out += "  " + measurement.name + "\n";
+  return out + fmt::format("\n{} measurements, {} cases run for them\n", study.measurements.size(), cases);
+}
+
+}  // namespace
+
 std::string explain(const Study& study) {
+  if (!study.judged_by_series()) return explain_measurements(study);
   const SceneText& scene = study.scene->text();
   std::string out = fmt::format("{} - {}\n\n", study.name, study.title);
   out += fmt::format("scene {}: period {}, T = {}\n  c = {}\n  b = {}\n  u = {}\n",

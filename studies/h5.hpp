@@ -82,6 +82,13 @@ void write_number(hid_t object, const std::string& name, T value) {
   check(H5Awrite(attribute, native<T>(), &value), "write attribute " + name);
 }
 
+inline double read_number(hid_t object, const std::string& name) {
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+  double value = 0.0;
+  check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read attribute " + name);
+  return value;
+}
+
 template <class T>
 void write_column(hid_t group, const std::string& name, std::span<const T> values) {
   const hsize_t size = values.size();

@@ -108,6 +108,13 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   int status = done;
   std::vector<Row> rows;
   for (const StudyResult& study : result.studies) {
+    for (const auto& finding : study.findings) {
+      if (!finding) continue;
+      rows.push_back({finding->as_expected(), study.study->name, finding->label(), finding->judgement,
+                      finding->expected, finding->judgement.reason});
+      if (!finding->as_expected()) status = std::max<int>(status, departs);
+    }
+    if (!study.study->judged_by_series()) continue;
     for (const SeriesResult& series : study.series) {
       if (result.interrupted && series.completed().size() < series.results.size()) continue;
       const bool passes = series.as_expected();
@@ -133,7 +140,18 @@ int check(const std::vector<std::string>& files) {
   std::vector<Row> rows;
   std::size_t departing = 0;
   for (const std::string& file : files) {
-    for (const CheckedSeries& series : check_file(file)) {
+    const ResultRecord record = read_json(file);
+    for (const FindingRecord& found : record.findings) {
+      const Finding& finding = found.finding;
+      const bool passes = finding.as_expected() && found.verdict == name_of(finding.judgement.verdict);
+      rows.push_back({passes, found.study, finding.label(), finding.judgement, finding.expected,
+                      found.verdict == name_of(finding.judgement.verdict)
+                          ? finding.judgement.reason
+                          : fmt::format("the file says {}, but its values say otherwise: {}", found.verdict,
+                                        finding.judgement.reason)});
+      departing += passes ? 0 : 1;
+    }
+    for (const CheckedSeries& series : check_series(record.series)) {
       rows.push_back({series.passes(), series.record.study, series.record.label, series.judgement,
                       series.record.expected, series.remark()});
       departing += series.passes() ? 0 : 1;

@@ -39,6 +39,10 @@ std::string numerics_fingerprint() {
   return fmt::format("{} {} {}", build_info::numerics, build_info::compiler, build_info::flags);
 }
 
+std::string measurements_fingerprint() {
+  return fmt::format("{} {} {}", build_info::measurements, build_info::compiler, build_info::flags);
+}
+
 Provenance collect_provenance(int jobs, const std::string& command) {
   utsname system{};
   uname(&system);

@@ -17,5 +17,7 @@ Provenance collect_provenance(int jobs, const std::string& command);
 
 /// What a stored number depends on besides the inputs of its case: sources, compiler and flags.
 std::string numerics_fingerprint();
+/// What a stored finding depends on besides the text of its study.
+std::string measurements_fingerprint();
 
 }  // namespace acstudy

@@ -21,6 +21,16 @@ using json = nlohmann::ordered_json;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
+json observed_json(const Judgement& judgement) {
+  json pairwise = json::array();
+  for (const double order : judgement.pairwise) pairwise.push_back(number(order));
+  return {{"order", number(judgement.order)},
+          {"low", number(judgement.low)},
+          {"high", number(judgement.high)},
+          {"extrapolated", number(judgement.extrapolated)},
+          {"pairwise", pairwise}};
+}
+
 json series_json(const Study& study, const SeriesResult& result) {
   const Series& series = *result.series;
   const Judgement& judgement = result.judgement;
@@ -38,13 +48,7 @@ json series_json(const Study& study, const SeriesResult& result) {
   out["motion"] = study.scene->standing() ? "standing" : "moving";
   out["theory"] = {
       {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
-  json pairwise = json::array();
-  for (const double order : judgement.pairwise) pairwise.push_back(number(order));
-  out["observed"] = {{"order", number(judgement.order)},
-                     {"low", number(judgement.low)},
-                     {"high", number(judgement.high)},
-                     {"extrapolated", number(judgement.extrapolated)},
-                     {"pairwise", pairwise}};
+  out["observed"] = observed_json(judgement);
   out["verdict"] = name_of(judgement.verdict);
   out["expected"] = name_of(series.expected);
   out["as_expected"] = result.as_expected();
@@ -80,6 +84,38 @@ json series_json(const Study& study, const SeriesResult& result) {
   return out;
 }
 
+json finding_json(const Finding& finding) {
+  const Judgement& judgement = finding.judgement;
+  json out = {{"statement", finding.statement}, {"claim", finding.claim},       {"subject", finding.subject},
+              {"check", finding.check},         {"quantity", finding.quantity}, {"test", name_of(finding.test)}};
+  if (!finding.remark.empty()) out["remark"] = finding.remark;
+  out["variable"] = finding.variable;
+  if (finding.test == Test::order) {
+    out["theory_order"] = finding.theory_order;
+    out["observed"] = observed_json(judgement);
+  }
+  out["verdict"] = name_of(judgement.verdict);
+  out["promised"] = name_of(finding.promised);
+  out["expected"] = name_of(finding.expected);
+  out["as_expected"] = finding.as_expected();
+  out["alarm"] = finding.alarm();
+  out["reason"] = judgement.reason;
+  out["points"] = json::array();
+  for (const Point& point : finding.points) {
+    json one = {{"N", point.N},
+                {"h", number(point.h)},
+                {"delta", number(point.delta)},
+                {"variable", number(point.variable)},
+                {"value", number(point.value)}};
+    if (finding.test == Test::bounds) {
+      one["lower"] = number(point.lower);
+      one["upper"] = number(point.upper);
+    }
+    out["points"].push_back(one);
+  }
+  return out;
+}
+
 /// A value as JSON; bytes that are no UTF-8, as a file name may have, are replaced.
 std::string as_json_text(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
@@ -111,14 +147,44 @@ Verdict verdict(const json& value) {
   return *found;
 }
 
+FindingRecord read_finding(const std::string& study, const json& one) {
+  FindingRecord record{study, {}, one.at("verdict").get<std::string>()};
+  Finding& finding = record.finding;
+  finding.statement = one.at("statement").get<std::string>();
+  finding.subject = one.at("subject").get<std::string>();
+  finding.check = one.at("check").get<std::string>();
+  const auto test = test_from(one.at("test").get<std::string>());
+  if (!test) throw InputError("unknown test " + one.at("test").dump() + " in the result file");
+  finding.test = *test;
+  finding.theory_order = finding.test == Test::order ? real(one.at("theory_order")) : 0.0;
+  finding.promised = verdict(one.at("promised"));
+  finding.expected = verdict(one.at("expected"));
+  for (const json& point : one.at("points")) {
+    Point& p = finding.points.emplace_back();
+    p.N = point.at("N").get<std::int64_t>();
+    p.h = real(point.at("h"));
+    p.delta = real(point.at("delta"));
+    p.variable = real(point.at("variable"));
+    p.value = real(point.at("value"));
+    if (finding.test == Test::bounds) {
+      // A bound that is not there is no number in the file.
+      if (!point.at("lower").is_null()) p.lower = real(point.at("lower"));
+      if (!point.at("upper").is_null()) p.upper = real(point.at("upper"));
+    }
+  }
+  judge(finding);
+  return record;
+}
+
 SeriesRecord read_series(const std::string& study, const json& series) {
   SeriesRecord record;
   record.study = study;
   const bool standing = series.value("motion", std::string("moving")) == "standing";
   const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
-  record.label =
-      series_label(series.at("model").get<int>(), standing, series.at("divergence").get<std::string>() == "nonlocal",
-                   kernel, series.at("path").get<std::string>());
+  const SchemeChoice scheme{.model = series.at("model").get<int>(),
+                            .nonlocal_divergence = series.at("divergence").get<std::string>() == "nonlocal",
+                            .kernel = kernel};
+  record.label = scheme_label(scheme, standing) + ", " + series.at("path").get<std::string>();
   const json& theory = series.at("theory");
   const bool by_h = theory.at("variable").get<std::string>() == "h";
   for (const json& one : series.at("cases")) {
@@ -135,25 +201,40 @@ SeriesRecord read_series(const std::string& study, const json& series) {
 
 }  // namespace
 
-std::string json_text(const Study& study, const std::vector<SeriesResult>& all, const Provenance& provenance) {
-  json root = {{"study", study.name}, {"title", study.title}};
+std::string json_text(const StudyResult& result, const Provenance& provenance) {
+  const Study& study = *result.study;
+  json root = {{"study", study.name}, {"title", study.title}, {"kind", study.kind}};
   root["provenance"] = json::object();
   for (const auto& [name, value] : provenance) root["provenance"][name] = value;
-  root["series"] = json::array();
-  for (const SeriesResult& series : all) root["series"].push_back(series_json(study, series));
+  // The series of other kinds are runs that their findings rest on; they have no verdict of their own.
+  if (study.judged_by_series()) {
+    root["series"] = json::array();
+    for (const SeriesResult& series : result.series) root["series"].push_back(series_json(study, series));
+  } else {
+    root["findings_planned"] = study.measurements.size();
+    root["findings"] = json::array();
+    for (const auto& finding : result.findings) {
+      if (finding) root["findings"].push_back(finding_json(*finding));
+    }
+  }
   return pretty(root) + "\n";
 }
 
-std::vector<SeriesRecord> read_json(const std::string& file) {
+ResultRecord read_json(const std::string& file) {
   constexpr const char* remedy = "name a .json file that acstudy run has written";
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) throw InputError(fmt::format("{}: cannot read the result file; {}", file, remedy));
-  std::vector<SeriesRecord> all;
+  ResultRecord all;
   try {
     const json root = json::parse(text.str());
-    for (const json& series : root.at("series"))
-      all.push_back(read_series(root.at("study").get<std::string>(), series));
+    const std::string study = root.at("study").get<std::string>();
+    if (root.contains("findings")) {
+      all.findings_planned = root.at("findings_planned").get<std::size_t>();
+      for (const json& finding : root.at("findings")) all.findings.push_back(read_finding(study, finding));
+    } else {
+      for (const json& series : root.at("series")) all.series.push_back(read_series(study, series));
+    }
   } catch (const json::parse_error& error) {
     throw InputError(fmt::format("{}: not JSON, from byte {} on; {}", file, error.byte, remedy));
   } catch (const json::exception& error) {
@@ -161,8 +242,9 @@ std::vector<SeriesRecord> read_json(const std::string& file) {
     throw InputError(
         fmt::format("{}: not a result file of acstudy: {}; {}", file, what.substr(what.find("] ") + 2), remedy));
   }
-  if (all.empty())
+  if (all.series.empty() && all.findings.empty() && all.findings_planned == 0) {
     throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));
+  }
   return all;
 }
 

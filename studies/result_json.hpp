@@ -11,7 +11,7 @@
 namespace acstudy {
 
 /// The results of a study without the fields; real numbers at 17 significant digits, null for what is not finite.
-std::string json_text(const Study& study, const std::vector<SeriesResult>& series, const Provenance& provenance);
+std::string json_text(const StudyResult& result, const Provenance& provenance);
 
 /// What a result file says of one series.
 struct SeriesRecord {
@@ -24,7 +24,20 @@ struct SeriesRecord {
   std::size_t cases_planned;
 };
 
-/// @throws InputError if the file is no result file, or has no series
-std::vector<SeriesRecord> read_json(const std::string& file);
+/// What a result file says of one finding; `finding` is judged again from its points.
+struct FindingRecord {
+  std::string study;
+  Finding finding;
+  std::string verdict;  ///< that the file states
+};
+
+struct ResultRecord {
+  std::vector<SeriesRecord> series;
+  std::vector<FindingRecord> findings;
+  std::size_t findings_planned = 0;
+};
+
+/// @throws InputError if the file is no result file, or has nothing to check
+ResultRecord read_json(const std::string& file);
 
 }  // namespace acstudy

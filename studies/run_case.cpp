@@ -3,39 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 
-#include "solver/model1.hpp"
-#include "solver/model2.hpp"
 #include "studies/advance.hpp"
 
 namespace acstudy {
 
 namespace {
 
-std::unique_ptr<Source> make_source(const Case& c, KernelProfile kernel) {
-  if (!c.nonlocal_source) return local_source(*c.scene);
-  return nonlocal_source(*c.scene, {c.scheme.model, c.scheme.nonlocal_divergence, std::move(kernel), c.delta, c.mu},
-                         c.source_rule);
-}
-
-template <class Motion, class Divergence, class K>
-CaseResult run_scheme(const Case& c, const K& kernel, const std::atomic<bool>& stop) {
-  const auto source = make_source(c, profile(kernel));
-  if (c.scheme.model == 1) return advance<Motion>(c, ModelI<K, Divergence>(kernel), *source, stop);
-  if constexpr (IntegrableKernel<K>) {
-    return advance<Motion>(c, ModelII<K, Divergence>(kernel, c.mu), *source, stop);
-  } else {
-    throw std::logic_error("Model II with a kernel that is not integrable");
-  }
-}
-
-template <class K>
-CaseResult run_kernel(const Case& c, const K& kernel, const std::atomic<bool>& stop) {
-  if (c.scene->standing()) return run_scheme<StandingParticles, NoDivergence>(c, kernel, stop);
-  if (c.scheme.nonlocal_divergence) return run_scheme<MovingParticles, NonlocalDivergence>(c, kernel, stop);
-  return run_scheme<MovingParticles, LocalDivergence>(c, kernel, stop);
+template <class Motion>
+CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
+  const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
+  const auto source = make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule);
+  return advance<Motion>(c, *scheme, *source, stop);
 }
 
 /// A case that cannot be run to its end for a numerical reason; whatever else goes wrong is not its fault and goes up.
@@ -59,7 +39,7 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t le
   double total = 0.0;
   do {
     try {
-      result = with_kernel(c.scheme.kernel, [&](const auto& kernel) { return run_kernel(c, kernel, stop); });
+      result = c.scene->standing() ? run_once<StandingParticles>(c, stop) : run_once<MovingParticles>(c, stop);
     } catch (const std::domain_error& error) {
       result = failed(error.what());
     } catch (const std::runtime_error& error) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// One case from start to error: the place where the choices of a study become types.
+/// One case from start to error.
 
 #include <atomic>
 #include <cstdint>

@@ -56,10 +56,10 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What the studies' files hold: the cases of all of them together, the origin of each.
+/// What the studies' files hold: the cases of all of them together, the findings and the origin of each.
 struct Stores {
   std::map<std::string, CaseResult> cases;
-  std::vector<Provenance> provenance;
+  std::vector<StoredCases> each;
 };
 
 Stores load_stores(const std::vector<Study>& studies, const RunOptions& options) {
@@ -72,9 +72,43 @@ Stores load_stores(const std::vector<Study>& studies, const RunOptions& options)
       if (!options.fresh) throw;
     }
     stores.cases.merge(stored.cases);
-    stores.provenance.push_back(std::move(stored.provenance));
+    stores.each.push_back(std::move(stored));
   }
   return stores;
+}
+
+/// Calls `work(i)` for i = 0 .. count-1 from up to `jobs` threads, until one throws or `stop`; what is thrown comes
+/// back.
+template <class Work>
+std::exception_ptr in_parallel(std::size_t count, int jobs, const std::atomic<bool>& stop, Work&& work) {
+  std::mutex mutex;
+  std::size_t next = 0;
+  std::exception_ptr failure;
+  const auto worker = [&] {
+    for (;;) {
+      std::size_t i = 0;
+      {
+        const std::lock_guard lock(mutex);
+        if (next == count || stop || failure) return;
+        i = next++;
+      }
+      try {
+        work(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failure = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  try {
+    for (std::size_t t = 1; t < std::min<std::size_t>(jobs, count); ++t) threads.emplace_back(worker);
+  } catch (const std::system_error&) {
+    // The machine gives no more threads; those that run share the work.
+  }
+  worker();
+  for (std::thread& thread : threads) thread.join();
+  return failure;
 }
 
 }  // namespace
@@ -86,9 +120,10 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   std::unordered_map<std::string, std::size_t> job_of;
   std::vector<std::size_t> open_cases;
   std::vector<Provenance> provenance;
+  std::vector<std::pair<std::size_t, std::size_t>> measurements;  // study, number within it
   for (std::size_t s = 0; s < studies.size(); ++s) {
     const Study& study = studies[s];
-    run.studies.push_back({&study, {}});
+    run.studies.push_back({&study, {}, {}});
     open_cases.push_back(0);
     for (const Series& series : study.series) {
       auto& results = run.studies.back().series.emplace_back(SeriesResult{&series, {}, {}}).results;
@@ -109,64 +144,66 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
         ++open_cases[s];
       }
     }
+    const StoredCases& stored = stores.each[s];
+    run.studies[s].findings.resize(study.measurements.size());
+    const bool measured = stored.findings.size() == study.measurements.size() && study.series.empty() &&
+                          stored.findings_key == findings_key(study) && !options.fresh;
+    for (std::size_t i = 0; i < study.measurements.size(); ++i) {
+      if (measured) {
+        run.studies[s].findings[i] = stored.findings[i];
+      } else {
+        measurements.push_back({s, i});
+      }
+    }
     // A study of which nothing is computed keeps the origin of its numbers.
-    const bool untouched = open_cases[s] == 0 && !stores.provenance[s].empty();
-    provenance.push_back(untouched ? stores.provenance[s] : collect_provenance(options.jobs, options.command));
+    const bool untouched = open_cases[s] == 0 && (measured || study.measurements.empty()) && !stored.provenance.empty();
+    provenance.push_back(untouched ? stored.provenance : collect_provenance(options.jobs, options.command));
   }
   std::stable_sort(jobs.begin(), jobs.end(),
                    [](const Job& a, const Job& b) { return a.c->estimated_work() > b.c->estimated_work(); });
 
+  std::vector<bool> finished(studies.size());
   const auto finish = [&](std::size_t s) {
     for (SeriesResult& series : run.studies[s].series) series.judgement = judge_series(*series.series, series.results);
-    write_results(options.out, studies[s], run.studies[s].series, provenance[s]);
+    write_results(options.out, run.studies[s], provenance[s]);
+    finished[s] = true;
   };
-  for (std::size_t s = 0; s < studies.size(); ++s) {
-    if (open_cases[s] == 0) finish(s);
-  }
+  const auto finish_if_complete = [&](std::size_t s) {
+    const auto& findings = run.studies[s].findings;
+    if (open_cases[s] == 0 && std::all_of(findings.begin(), findings.end(), [](const auto& f) { return f; })) finish(s);
+  };
+  for (std::size_t s = 0; s < studies.size(); ++s) finish_if_complete(s);
 
   double work = 0.0;
   for (const Job& job : jobs) work += job.c->estimated_work();
   Progress progress(jobs.size(), work);
   std::mutex mutex;
-  std::size_t next = 0;
-  std::exception_ptr failure;
-  const auto worker = [&] {
-    for (;;) {
-      const Job* job = nullptr;
-      {
-        const std::lock_guard lock(mutex);
-        if (next == jobs.size() || stop || failure) return;
-        job = &jobs[next++];
-      }
-      try {
-        const CaseResult result = run_case(*job->c, stop, options.repeats);
-        const std::lock_guard lock(mutex);
-        if (!result.completed) return;
-        ++run.computed;
-        progress.done(job->c->estimated_work());
-        for (const auto& place : job->wanted_by) {
-          run.studies[place.study].series[place.series].results[place.level] = result;
-          if (--open_cases[place.study] == 0) finish(place.study);
-        }
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-      }
+  std::exception_ptr failure = in_parallel(jobs.size(), options.jobs, stop, [&](std::size_t i) {
+    const CaseResult result = run_case(*jobs[i].c, stop, options.repeats);
+    const std::lock_guard lock(mutex);
+    if (!result.completed) return;
+    ++run.computed;
+    progress.done(jobs[i].c->estimated_work());
+    for (const auto& place : jobs[i].wanted_by) {
+      run.studies[place.study].series[place.series].results[place.level] = result;
+      --open_cases[place.study];
+      finish_if_complete(place.study);
     }
-  };
-  std::vector<std::thread> threads;
-  try {
-    for (std::size_t t = 1; t < std::min<std::size_t>(options.jobs, jobs.size()); ++t) threads.emplace_back(worker);
-  } catch (const std::system_error&) {
-    // The machine gives no more threads; those that run share the work.
+  });
+  if (!failure && !stop) {
+    failure = in_parallel(measurements.size(), options.jobs, stop, [&](std::size_t i) {
+      const auto [s, m] = measurements[i];
+      const Finding finding = studies[s].measurements[m].take(run.studies[s].series);
+      const std::lock_guard lock(mutex);
+      run.studies[s].findings[m] = finding;
+      finish_if_complete(s);
+    });
   }
-  worker();
-  for (std::thread& thread : threads) thread.join();
 
   // What is done is stored before anything is said of what went wrong.
   run.interrupted = stop;
   for (std::size_t s = 0; s < studies.size(); ++s) {
-    if (open_cases[s] == 0) continue;
+    if (finished[s]) continue;
     try {
       finish(s);
     } catch (...) {

@@ -21,11 +21,6 @@ struct RunOptions {
   std::string command;
 };
 
-struct StudyResult {
-  const Study* study;
-  std::vector<SeriesResult> series;
-};
-
 struct RunResult {
   std::vector<StudyResult> studies;
   std::size_t computed = 0, reused = 0;
@@ -35,7 +30,8 @@ struct RunResult {
 /// Runs every case that is not stored yet, each once even if several studies ask for it, longest first; writes the
 /// results of a study as soon as it is complete, and those of incomplete ones when interrupted.
 ///
-/// A case runs in one thread, so its numbers do not depend on `jobs`.
+/// Then takes the measurements of studies whose cases are all there. A case and a measurement run in one thread, so
+/// numbers do not depend on `jobs`.
 /// @param stop  once true, running cases end at their next time step
 /// @throws StoreError
 RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop);

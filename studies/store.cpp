@@ -106,9 +106,79 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   }
 }
 
+/// Visits the columns of a point with their names.
+template <class P, class Visit>
+void for_each_point_column(P& point, Visit&& visit) {
+  visit("N", point.N);
+  visit("h", point.h);
+  visit("delta", point.delta);
+  visit("variable", point.variable);
+  visit("value", point.value);
+  visit("lower", point.lower);
+  visit("upper", point.upper);
+}
+
+/// Visits the texts of a finding with their names.
+template <class F, class Visit>
+void for_each_text(F& finding, Visit&& visit) {
+  visit("statement", finding.statement);
+  visit("claim", finding.claim);
+  visit("subject", finding.subject);
+  visit("check", finding.check);
+  visit("quantity", finding.quantity);
+  visit("variable_name", finding.variable);
+  visit("remark", finding.remark);
+}
+
+void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
+  const h5::Handle group = h5::create_group(parent, group_name);
+  for_each_text(finding, [&](const char* name, const std::string& text) { h5::write_text(group, name, text); });
+  h5::write_text(group, "test", std::string(name_of(finding.test)));
+  h5::write_number(group, "theory_order", finding.theory_order);
+  h5::write_text(group, "promised", std::string(name_of(finding.promised)));
+  h5::write_text(group, "expected", std::string(name_of(finding.expected)));
+  h5::write_text(group, "verdict", std::string(name_of(finding.judgement.verdict)));
+  h5::write_text(group, "reason", finding.judgement.reason);
+  h5::write_number<std::int64_t>(group, "as_expected", finding.as_expected() ? 1 : 0);
+  h5::write_number<std::int64_t>(group, "alarm", finding.alarm() ? 1 : 0);
+  h5::write_number(group, "observed_order", finding.judgement.order);
+  h5::write_number(group, "observed_low", finding.judgement.low);
+  h5::write_number(group, "observed_high", finding.judgement.high);
+  h5::write_number(group, "extrapolated_order", finding.judgement.extrapolated);
+  Columns columns;
+  const Point nothing;
+  for_each_point_column(nothing, [&](const char* name, auto value) { columns.of(name, value); });
+  for (const Point& point : finding.points) {
+    for_each_point_column(point, [&](const char* name, auto value) { columns.of(name, value).push_back(value); });
+  }
+  for (const auto& [name, values] : columns.real) h5::write_column<double>(group, name, values);
+  for (const auto& [name, values] : columns.count) h5::write_column<std::int64_t>(group, name, values);
+}
+
+Finding read_finding(hid_t group) {
+  Finding finding{};
+  for_each_text(finding, [&](const char* name, std::string& text) { text = h5::read_text(group, name); });
+  finding.test = test_from(h5::read_text(group, "test")).value();
+  finding.theory_order = h5::read_number(group, "theory_order");
+  finding.promised = verdict_from(h5::read_text(group, "promised")).value();
+  finding.expected = verdict_from(h5::read_text(group, "expected")).value();
+  Columns columns;
+  finding.points.resize(h5::read_column<double>(group, "value").size());
+  for (std::size_t i = 0; i < finding.points.size(); ++i) {
+    for_each_point_column(finding.points[i], [&]<class T>(const char* name, T& value) {
+      std::vector<T>& values = columns.of(name, T{});
+      if (values.empty()) values = h5::read_column<T>(group, name);
+      value = values.at(i);
+    });
+  }
+  judge(finding);
+  return finding;
+}
+
 /// The HDF5 file as bytes. HDF5 builds it in memory, because a disk that is full leaves the library's own file driver
 /// in a state in which it can only crash.
-std::vector<char> h5_image(const Study& study, const std::vector<SeriesResult>& all, const Provenance& provenance) {
+std::vector<char> h5_image(const StudyResult& result, const Provenance& provenance) {
+  const Study& study = *result.study;
   const h5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file access properties");
   h5::check(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "choose the memory driver");
   const h5::Handle root(H5Fcreate((study.name + ".h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
@@ -116,20 +186,30 @@ std::vector<char> h5_image(const Study& study, const std::vector<SeriesResult>& 
   h5::write_text(root, "format", format);
   h5::write_text(root, "study", study.name);
   h5::write_text(root, "title", study.title);
+  h5::write_text(root, "kind", study.kind);
   h5::write_text(root, "study_text", study.text);
   const h5::Handle origin = h5::create_group(root, "provenance");
   for (const auto& [name, value] : provenance) h5::write_text(origin, name, value);
-  const h5::Handle scene = h5::create_group(root, "scene");
-  const SceneText& text = study.scene->text();
-  h5::write_text(scene, "name", text.name);
-  h5::write_number(scene, "period", study.scene->period());
-  h5::write_number(scene, "T", study.scene->T());
-  h5::write_text(scene, "c", text.c);
-  h5::write_text(scene, "u", text.u);
-  if (text.b) h5::write_text(scene, "b", *text.b);
-  if (text.flow) h5::write_text(scene, "flow", *text.flow);
+  if (study.scene) {
+    const h5::Handle scene = h5::create_group(root, "scene");
+    const SceneText& text = study.scene->text();
+    h5::write_text(scene, "name", text.name);
+    h5::write_number(scene, "period", study.scene->period());
+    h5::write_number(scene, "T", study.scene->T());
+    h5::write_text(scene, "c", text.c);
+    h5::write_text(scene, "u", text.u);
+    if (text.b) h5::write_text(scene, "b", *text.b);
+    if (text.flow) h5::write_text(scene, "flow", *text.flow);
+  }
   const h5::Handle series = h5::create_group(root, "series");
-  for (std::size_t i = 0; i < all.size(); ++i) write_series(series, fmt::format("{:03}", i), study, all[i]);
+  for (std::size_t i = 0; i < result.series.size(); ++i) {
+    write_series(series, fmt::format("{:03}", i), study, result.series[i]);
+  }
+  const h5::Handle findings = h5::create_group(root, "findings");
+  h5::write_text(root, "findings_key", findings_key(study));
+  for (std::size_t i = 0; i < result.findings.size(); ++i) {
+    if (result.findings[i]) write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
+  }
   h5::check(H5Fflush(root, H5F_SCOPE_GLOBAL), "flush the file in memory");
   const ssize_t size = H5Fget_file_image(root, nullptr, 0);
   if (size < 0) throw StoreError("HDF5 could not give the file in memory");
@@ -190,6 +270,8 @@ Judgement judge_series(const Series& series, const std::vector<CaseResult>& resu
   return judgement;
 }
 
+std::string findings_key(const Study& study) { return study.text + "|measurements=" + measurements_fingerprint(); }
+
 std::string storage_key(const Case& c) { return c.key() + "|numerics=" + numerics_fingerprint(); }
 
 StoredCases load_cases(const fs::path& file) {
@@ -227,6 +309,13 @@ StoredCases load_cases(const fs::path& file) {
         stored.cases[h5::read_text(one, "key")] = std::move(result);
       }
     }
+    // Files of before there were findings have none.
+    if (H5Lexists(root, "findings", H5P_DEFAULT) <= 0) return stored;
+    const h5::Handle findings = h5::open_group(root, "findings");
+    stored.findings_key = h5::read_text(root, "findings_key");
+    for (const std::string& name : h5::group_names(findings)) {
+      stored.findings.push_back(read_finding(h5::open_group(findings, name)));
+    }
   } catch (const std::exception& error) {
     throw StoreError(
         fmt::format("{}: not a readable result file ({}); remove it, or use --fresh", file.string(), error.what()));
@@ -234,11 +323,10 @@ StoredCases load_cases(const fs::path& file) {
   return stored;
 }
 
-void write_results(const fs::path& out, const Study& study, const std::vector<SeriesResult>& series,
-                   const Provenance& provenance) {
+void write_results(const fs::path& out, const StudyResult& result, const Provenance& provenance) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  replace_atomically(out / (study.name + ".h5"), h5_image(study, series, provenance));
-  replace_atomically(out / (study.name + ".json"), json_text(study, series, provenance));
+  replace_atomically(out / (result.study->name + ".h5"), h5_image(result, provenance));
+  replace_atomically(out / (result.study->name + ".json"), json_text(result, provenance));
 }
 
 }  // namespace acstudy

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -39,6 +40,14 @@ struct SeriesResult {
   }
 };
 
+/// A study with everything that has been computed of it; `findings[i]` is that of `study->measurements[i]`, absent
+/// where the run was interrupted.
+struct StudyResult {
+  const Study* study = nullptr;
+  std::vector<SeriesResult> series;
+  std::vector<std::optional<Finding>> findings;
+};
+
 /// The reason of a series of which a case could not be computed; its verdict is `inconclusive`.
 std::string not_computed(const std::string& failure);
 
@@ -48,11 +57,15 @@ Judgement judge_series(const Series& series, const std::vector<CaseResult>& resu
 /// What a study's HDF5 file holds: case results by storage key (see `storage_key`), and where they come from.
 struct StoredCases {
   std::map<std::string, CaseResult> cases;
+  std::string findings_key;  ///< see `findings_key`
+  std::vector<Finding> findings;
   Provenance provenance;
 };
 
 /// Under which a result may be used again: all inputs of the case and the fingerprint of the code that computes it.
 std::string storage_key(const Case& c);
+/// The same for the findings of a study that needs no runs.
+std::string findings_key(const Study& study);
 
 /// The content of a study's HDF5 file; empty if there is no such file.
 /// @throws StoreError if the file is there but cannot be read as a store
@@ -61,7 +74,6 @@ StoredCases load_cases(const std::filesystem::path& file);
 /// Writes `<out>/<study>.h5` and `<out>/<study>.json`, each whole or not at all (temporary file, then rename). Cases
 /// that were not completed are left out of both.
 /// @throws StoreError
-void write_results(const std::filesystem::path& out, const Study& study, const std::vector<SeriesResult>& series,
-                   const Provenance& provenance);
+void write_results(const std::filesystem::path& out, const StudyResult& result, const Provenance& provenance);
 
 }  // namespace acstudy

@@ -14,13 +14,14 @@ std::string Case::key() const {
   return fmt::format(
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
-      "integrator={}|N={}|delta={:.17g}|steps={}",
+      "integrator={}|N={}|delta={:.17g}|steps={}{}",
       text.period, text.T, text.c, text.b.value_or(""), text.u, text.flow.value_or(""), scheme.model,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",
       scheme.kernel.name, scheme.kernel.alpha, mu, nonlocal_source ? "nonlocal" : "local",
-      static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta, steps);
+      static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta, steps,
+      scheme.control.empty() ? "" : "|control=" + scheme.control);
 }
 
 double Case::estimated_work() const {
@@ -32,15 +33,12 @@ double Case::estimated_work() const {
 
 double Case::cfl() const { return scheme.model == 1 ? dt * scene->max_relative_velocity() / h : 2.0 * dt * mu / h; }
 
-std::string series_label(int model, bool standing, bool nonlocal_divergence, const KernelChoice& kernel,
-                         const std::string& path) {
-  std::string text = model == 1 ? "Model I" : "Model II";
-  if (!standing) text += nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
-  return fmt::format("{}, {}, {}", text, kernel.label(), path);
+std::string scheme_label(const SchemeChoice& scheme, bool standing) {
+  std::string text = scheme.model == 1 ? "Model I" : "Model II";
+  if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
+  return fmt::format("{}, {}", text, scheme.kernel.label());
 }
 
-std::string Series::label() const {
-  return series_label(scheme.model, cases.front().scene->standing(), scheme.nonlocal_divergence, scheme.kernel, path);
-}
+std::string Series::label() const { return scheme_label(scheme, cases.front().scene->standing()) + ", " + path; }
 
 }  // namespace acstudy

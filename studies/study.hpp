@@ -4,6 +4,7 @@
 /// What a study asks for: its schemes and paths, its series and cases.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "mms/source.hpp"
 #include "reports/orders.hpp"
 #include "solver/integrators.hpp"
+#include "studies/finding.hpp"
 #include "studies/kernel_choice.hpp"
 
 namespace acstudy {
@@ -23,16 +25,7 @@ struct SchemeChoice {
   bool nonlocal_divergence;
   KernelChoice kernel;
   std::optional<double> mu;  ///< Model II; absent: max |c - b|
-};
-
-/// A refinement path: the curve delta(h) and the levels on it.
-struct PathChoice {
-  std::string name;
-  Expression delta;
-  std::vector<std::int64_t> N;
-  bool nonlocal_source;
-  std::optional<Verdict> expect;
-  std::optional<double> order;  ///< in place of theory's
+  std::string control;       ///< name of the mistake made on purpose; empty for the scheme itself
 };
 
 /// Everything that fixes the numbers of one run.
@@ -76,18 +69,30 @@ struct Series {
   std::string label() const;
 };
 
-/// "Model I, local divergence, inverse, delta = 4h"; the divergence is left out where particles stand still.
-std::string series_label(int model, bool standing, bool nonlocal_divergence, const KernelChoice& kernel,
-                         const std::string& path);
+/// "Model I, local divergence, inverse"; the divergence is left out where particles stand still.
+std::string scheme_label(const SchemeChoice& scheme, bool standing);
 
+struct SeriesResult;
+
+/// One statement to be measured; `take` gets the results of the study's series, which may be none.
+struct Measurement {
+  std::string name;
+  std::function<Finding(const std::vector<SeriesResult>&)> take;
+};
+
+/// What a study file asks for. A convergence study is judged by its series. Studies of other kinds are judged by what
+/// they measure; their series are the runs that this needs.
 struct Study {
   std::string file, text;
-  std::string name, title;
-  std::shared_ptr<const Scene> scene;
-  const Integrator* integrator;
+  std::string name, title, kind;
+  std::shared_ptr<const Scene> scene;      ///< none where a kind needs none
+  const Integrator* integrator = nullptr;  ///< the same
   std::string step_text;
-  SourceRule source_rule;
+  SourceRule source_rule = SourceRule::gauss;
   std::vector<Series> series;
+  std::vector<Measurement> measurements;
+
+  bool judged_by_series() const { return kind == "convergence"; }
 };
 
 }  // namespace acstudy

@@ -53,7 +53,7 @@ STUDIES = {
     "unknown key above the tables": (
         "@n = 1\n" + STUDY, 'unknown key "n" in the study; known keys: study, scene, scheme, time, path, source'),
     "unknown key in [study]": (bad(("title =", "@author =")),
-                               'unknown key "author" in [study]; known keys: name, title'),
+                               'unknown key "author" in [study]; known keys: name, title, kind'),
     "unknown key in [scene]": (inline(('T = 1', '@time = 1')),
                                'unknown key "time" in [scene]; known keys: use, period, T, c, b, u, flow'),
     "field beside a named scene": (bad((USE, USE + '\n@c = "1"')), 'unknown key "c" in [scene]; known keys: use, T'),
@@ -285,7 +285,7 @@ class BadStudy(ProgramTest):
     def test_explain_says_the_same(self):
         for change, place in ((("model = 1", "model = 3"), "9:9: model = 3; it must be 1 or 2"),
                               (('title = "A tiny study"\n', "grid = 3\n"),
-                               '3:1: unknown key "grid" in [study]; known keys: name, title')):
+                               '3:1: unknown key "grid" in [study]; known keys: name, title, kind')):
             self.write("bad.toml", edit(STUDY, change))
             self.assert_bad_input(self.acstudy("explain", "bad.toml"), f"bad.toml:{place}")
 

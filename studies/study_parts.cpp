@@ -1,0 +1,255 @@
+#include "studies/study_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace acstudy {
+
+std::shared_ptr<const Scene> read_scene(const Table& table) {
+  SceneText text;
+  const toml::node* named = table.find("use");
+  if (named != nullptr) {
+    table.allow({"use", "T"});
+    const std::string name = table.text("use", "use = \"lee-du-2019\"");
+    std::vector<std::string> known;
+    for (const auto& scene : named_scenes()) known.push_back(scene.name);
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      table.place(*named).fail(fmt::format("unknown scene \"{}\"; known scenes: {}", name, fmt::join(known, ", ")));
+    }
+    text = named_scenes()[found - known.begin()];
+  } else {
+    table.allow({"use", "period", "T", "c", "b", "u", "flow"});
+  }
+  std::size_t offset = 0;
+  if (named == nullptr) {
+    if (table.find("c") == nullptr && table.find("u") == nullptr) {
+      table.place().fail(
+          "[scene] names no scene and gives no fields; write use = \"lee-du-2019\", or period, T, c and u");
+    }
+    text.period = table.expression_text("period", "period = \"2*pi\"", offset);
+    text.c = table.expression_text("c", "c = \"cos(2*x)/3\"", offset);
+    text.u = table.expression_text("u", "u = \"cos(x-t)\"", offset);
+    if (table.find("b") != nullptr) text.b = table.expression_text("b", "b = \"sin(x)\"", offset);
+    if (table.find("flow") != nullptr) text.flow = table.expression_text("flow", "flow = \"x + t\"", offset);
+  }
+  if (named == nullptr || table.find("T") != nullptr) text.T = table.expression_text("T", "T = 1", offset);
+  try {
+    return std::make_shared<const Scene>(text);
+  } catch (const SceneError& error) {
+    const toml::node* const node = table.find(error.field);
+    if (node == nullptr) table.place().fail(error.what());
+    const bool quoted = node->is_string();
+    table.place(*node).shifted((quoted ? 1 : 0) + error.position).fail(error.what());
+  }
+}
+
+namespace {
+
+KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model) {
+  static const toml::table no_table;
+  const toml::table* const table = node.as_table();
+  const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
+  const toml::node* name_node = &node;
+  if (table != nullptr) {
+    inner.allow({"name", "alpha"});
+    name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
+  }
+  KernelChoice kernel{scheme.text("kernel", *name_node, "kernel = \"inverse\"")};
+  std::vector<std::string_view> known;
+  for (const NamedKernel& named : named_kernels) known.push_back(named.name);
+  if (std::find(known.begin(), known.end(), kernel.name) == known.end()) {
+    scheme.place(*name_node)
+        .fail(fmt::format("unknown kernel \"{}\"; known kernels: {}", kernel.name, fmt::join(known, ", ")));
+  }
+
+  const toml::node* const alpha = table != nullptr ? inner.find("alpha") : nullptr;
+  if (alpha != nullptr) {
+    if (kernel.name != "power") {
+      inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
+    }
+    kernel.alpha = inner.number("alpha", *alpha);
+    if (!std::isfinite(kernel.alpha) || kernel.alpha >= 2.0) {
+      inner.place(*alpha).fail(
+          fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
+    }
+    if (model == 2 && !integrable(kernel)) {
+      inner.place(*alpha).fail(fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
+    }
+  } else if (kernel.name == "power" && table != nullptr) {
+    inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
+  } else if (kernel.name == "power") {
+    scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
+  }
+  if (model == 2 && !integrable(kernel)) {
+    scheme.place(*name_node)
+        .fail(fmt::format("Model II needs an integrable kernel, and the {} kernel is not; write \"cubic-spline\" or "
+                          "{{ name = \"power\", alpha = 0.5 }} with alpha < 1",
+                          kernel.name));
+  }
+  return kernel;
+}
+
+}  // namespace
+
+SchemeChoice read_scheme(const Table& table, const Scene& scene) {
+  table.allow({"model", "divergence", "kernel", "mu"});
+  SchemeChoice scheme{};
+  const toml::node& model = table.need("model", "model = 1");
+  const auto number = model.value_exact<std::int64_t>();
+  if (!number || (*number != 1 && *number != 2)) {
+    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
+  }
+  scheme.model = static_cast<int>(*number);
+  const toml::node* const divergence = table.find("divergence");
+  if (divergence != nullptr) {
+    scheme.nonlocal_divergence = table.choice<bool>("divergence", *divergence, {{"local", false}, {"nonlocal", true}});
+  } else if (!scene.standing()) {
+    table.need("divergence", "divergence = \"local\"");
+  }
+  scheme.kernel = read_kernel(table, table.need("kernel", "kernel = \"cubic-spline\""), scheme.model);
+  if (const toml::node* const mu = table.find("mu")) {
+    if (scheme.model == 1) table.place(*mu).fail("Model I has no viscosity; leave mu out");
+    scheme.mu = table.number("mu", *mu);
+    if (!std::isfinite(*scheme.mu) || *scheme.mu < 0.0) {
+      table.place(*mu).fail(fmt::format("mu = {}; a viscosity bound must be finite and not negative", *scheme.mu));
+    }
+  }
+  return scheme;
+}
+
+std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene) {
+  std::vector<SchemeEntry> entries;
+  std::set<std::string> keys;
+  double widest = -1.0;
+  for (const Table& table : root.array_of_tables("scheme")) {
+    const SchemeChoice scheme = read_scheme(table, scene);
+    if (scheme.model == 2 && !scheme.mu && widest < 0.0) widest = scene.max_relative_velocity();
+    const double mu = scheme.model == 1 ? 0.0 : scheme.mu.value_or(widest);
+    if (!keys.insert(fmt::format("{}|{}|{}|{}", scheme.model, scheme.nonlocal_divergence, scheme.kernel.label(), mu))
+             .second) {
+      table.place().fail("the same scheme a second time; leave one of them out");
+    }
+    entries.push_back({scheme, mu});
+  }
+  return entries;
+}
+
+std::vector<std::int64_t> read_levels(const Table& table) {
+  const toml::node& node = table.need("N", "N = [160, 320, 640, 1280]");
+  const toml::array* const array = node.as_array();
+  if (array == nullptr || array->empty()) {
+    table.place(node).fail(fmt::format("N must be a list of particle numbers, not {}; write N = [160, 320, 640, 1280]",
+                                       array == nullptr ? Table::described(node) : "an empty list"));
+  }
+  std::vector<std::int64_t> N;
+  for (const toml::node& item : *array) {
+    const auto value = item.value_exact<std::int64_t>();
+    if (!value)
+      table.place(item).fail(fmt::format("N contains {}; every entry must be a whole number", Table::described(item)));
+    if (*value < 3)
+      table.place(item).fail(fmt::format("N = {}; a periodic interval needs at least 3 particles", *value));
+    if (*value > 100'000'000) table.place(item).fail(fmt::format("N = {}; the most is 100000000", *value));
+    if (!N.empty() && *value <= N.back()) {
+      table.place(item).fail(fmt::format("N = {} after {}; levels must go from coarse to fine", *value, N.back()));
+    }
+    N.push_back(*value);
+  }
+  return N;
+}
+
+Verdict read_expected(const Table& table, const toml::node& node) {
+  std::vector<std::pair<std::string, Verdict>> words;
+  for (int v = 0; v <= static_cast<int>(Verdict::inconclusive); ++v) {
+    words.emplace_back(name_of(static_cast<Verdict>(v)), static_cast<Verdict>(v));
+  }
+  return table.choice<Verdict>("expect", node, words);
+}
+
+PathChoice read_path(const Table& table) {
+  table.allow({"name", "delta", "N", "source", "expect", "order"});
+  const toml::node& name = table.need("name", "name = \"delta = 4h\"");
+  PathChoice path{.name = table.text("name", name, "name = \"delta = 4h\""),
+                  .delta = table.expression("delta", "delta = \"4*h\"", {"h", "N"}),
+                  .N = read_levels(table),
+                  .nonlocal_source = table.choice<bool>("source", table.need("source", "source = \"local\""),
+                                                        {{"local", false}, {"nonlocal", true}}),
+                  .expect = std::nullopt,
+                  .order = std::nullopt};
+  if (path.name.empty()) table.place(name).fail("a path needs a name, for example \"delta = 4h\"");
+  if (const toml::node* const expect = table.find("expect")) {
+    path.expect = read_expected(table, *expect);
+  }
+  if (const toml::node* const order = table.find("order")) {
+    path.order = table.number("order", *order);
+    if (!std::isfinite(*path.order) || *path.order < 0.0) {
+      table.place(*order).fail(fmt::format("order = {}; an order must be finite and not negative", *path.order));
+    }
+  }
+  return path;
+}
+
+Stepping read_time(const Table& root) {
+  const Table time = root.sub_table("time");
+  time.allow({"integrator", "step"});
+  std::vector<std::pair<std::string, const Integrator*>> words;
+  for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
+  const Integrator* const integrator =
+      time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), words);
+  Expression step = time.expression("step", "step = \"h/4\"", {"h", "N"});
+  return {integrator, std::move(step), time.place(*time.find("step"))};
+}
+
+SourceRule read_source_rule(const Table& root) {
+  if (root.find("source") == nullptr) return SourceRule::gauss;
+  const Table source = root.sub_table("source");
+  source.allow({"rule"});
+  return source.choice<SourceRule>(
+      "rule", source.need("rule", "rule = \"gauss\""),
+      {{"gauss", SourceRule::gauss}, {"gsl", SourceRule::gsl}, {"boost", SourceRule::boost}});
+}
+
+Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
+               bool nonlocal_source, const Place& at) {
+  const Scene& scene = *study.scene;
+  const double count = static_cast<double>(N), h = scene.period() / count, bound = time.step({h, count});
+  if (!std::isfinite(delta) || delta <= 0.0) {
+    at.fail(
+        fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must be positive and finite: write an expression "
+                    "in h and N such as \"4*h\"",
+                    delta, h, N));
+  }
+  if (delta >= 0.5 * scene.period()) {
+    at.fail(
+        fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must stay below half the period, {:.6g}, or a "
+                    "particle would meet its own images",
+                    delta, h, N, 0.5 * scene.period()));
+  }
+  if (!std::isfinite(bound) || bound <= 0.0) {
+    time.at_step.fail(fmt::format(
+        "step = {:.6g} at h = {:.6g} (N = {}); a time step must be positive and finite: write an expression "
+        "in h and N such as \"h/4\"",
+        bound, h, N));
+  }
+  if (scene.T() / bound > 1e12) {
+    time.at_step.fail(fmt::format("step = {:.6g} at h = {:.6g} (N = {}) asks for {:.3g} steps; the most is 1e12", bound,
+                                  h, N, scene.T() / bound));
+  }
+  const std::int64_t steps = steps_for(scene.T(), bound);
+  return {.scene = study.scene,
+          .scheme = entry.scheme,
+          .mu = entry.mu,
+          .nonlocal_source = nonlocal_source,
+          .source_rule = study.source_rule,
+          .integrator = study.integrator,
+          .N = N,
+          .h = h,
+          .delta = delta,
+          .dt = scene.T() / static_cast<double>(steps),
+          .steps = steps};
+}
+
+}  // namespace acstudy

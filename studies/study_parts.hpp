@@ -1,0 +1,58 @@
+#pragma once
+
+/// @file
+/// The tables that studies of several kinds share: scene, schemes, paths, time stepping and the cases made of them.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/study.hpp"
+#include "studies/toml_table.hpp"
+
+namespace acstudy {
+
+/// [scene]: a named scene, or the fields themselves.
+std::shared_ptr<const Scene> read_scene(const Table& table);
+
+/// A [[scheme]]; `standing` decides whether it needs a divergence form.
+SchemeChoice read_scheme(const Table& table, const Scene& scene);
+/// All of [[scheme]], each once, with the viscosity bound of each (0 for Model I).
+struct SchemeEntry {
+  SchemeChoice scheme;
+  double mu;
+};
+std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene);
+
+/// N = [160, 320, ...], coarse to fine.
+std::vector<std::int64_t> read_levels(const Table& table);
+
+/// A refinement path: the curve delta(h) and the levels on it.
+struct PathChoice {
+  std::string name;
+  Expression delta;
+  std::vector<std::int64_t> N;
+  bool nonlocal_source;
+  std::optional<Verdict> expect;
+  std::optional<double> order;  ///< in place of theory's
+};
+PathChoice read_path(const Table& table);
+
+/// A verdict that a study may expect of an order.
+Verdict read_expected(const Table& table, const toml::node& node);
+
+/// [time] and [source]: how a study steps and how its sources are integrated.
+struct Stepping {
+  const Integrator* integrator;
+  Expression step;
+  Place at_step;
+};
+Stepping read_time(const Table& root);
+SourceRule read_source_rule(const Table& root);
+
+/// The case of one scheme at N particles and the horizon `delta`.  @param at  the place to blame for a bad horizon
+Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
+               bool nonlocal_source, const Place& at);
+
+}  // namespace acstudy

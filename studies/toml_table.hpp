@@ -1,0 +1,89 @@
+#pragma once
+
+/// @file
+/// Tables of a study file that know where they stand, so that every message names file, line and column.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mms/expression.hpp"
+
+#define TOML_EXCEPTIONS 1
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+namespace acstudy {
+
+/// A place in a study file.
+struct Place {
+  std::string file;
+  std::uint32_t line = 0, column = 0;
+
+  /// @throws InputError
+  [[noreturn]] void fail(const std::string& message) const;
+  Place shifted(std::size_t by) const { return {file, line, column + static_cast<std::uint32_t>(by)}; }
+};
+
+/// A table of the study file. Every reader fails with an InputError that names the place, the value and a remedy.
+class Table {
+ public:
+  Table(const toml::table& table, std::string title, std::string file)
+      : table_(table), title_(std::move(title)), file_(std::move(file)) {}
+
+  Place place() const { return at(table_.source()); }
+  Place place(const toml::node& node) const { return at(node.source()); }
+  const std::string& file() const { return file_; }
+
+  /// Rejects keys that are not in `known`.
+  void allow(const std::vector<std::string>& known) const;
+
+  const toml::node* find(std::string_view key) const { return table_.get(key); }
+  const toml::node& need(std::string_view key, std::string_view example) const;
+
+  std::string text(std::string_view key, std::string_view example) const {
+    return text(key, need(key, example), example);
+  }
+  std::string text(std::string_view key, const toml::node& node, std::string_view example) const;
+
+  /// An expression or a plain number, as text; `offset` becomes the distance from the node to the first character.
+  std::string expression_text(std::string_view key, std::string_view example, std::size_t& offset) const;
+  Expression expression(std::string_view key, std::string_view example,
+                        const std::vector<std::string>& variables) const;
+
+  double number(std::string_view key, const toml::node& node) const;
+  /// A whole number from `least` to `most`.
+  std::int64_t whole(std::string_view key, const toml::node& node, std::int64_t least, std::int64_t most) const;
+  /// The entries of a list that is not empty.
+  const toml::array& list(std::string_view key, std::string_view example) const;
+
+  /// One of a list of words.
+  template <class T>
+  T choice(std::string_view key, const toml::node& node, const std::vector<std::pair<std::string, T>>& words) const {
+    const auto value = node.value_exact<std::string>();
+    std::vector<std::string> quoted;
+    for (const auto& [word, meaning] : words) {
+      if (value && *value == word) return meaning;
+      quoted.push_back("\"" + word + "\"");
+    }
+    place(node).fail(fmt::format("{} = {}; it must be one of {}", key, described(node), fmt::join(quoted, ", ")));
+  }
+
+  /// The tables of an array such as [[scheme]], at least one.
+  std::vector<Table> array_of_tables(std::string_view key) const;
+  /// A table such as [scene].
+  Table sub_table(std::string_view key) const;
+
+  static std::string described(const toml::node& node);
+
+ private:
+  Place at(const toml::source_region& region) const { return {file_, region.begin.line, region.begin.column}; }
+
+  const toml::table& table_;
+  std::string title_;
+  std::string file_;
+};
+
+}  // namespace acstudy

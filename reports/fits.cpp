@@ -138,6 +138,11 @@ double student(double probability, std::size_t degrees_of_freedom) {
   return gsl_cdf_tdist_Pinv((1.0 + probability) / 2.0, static_cast<double>(degrees_of_freedom));
 }
 
+bool significant(double before, double after, std::size_t degrees_of_freedom, double level) {
+  const double t = student(1.0 - level, degrees_of_freedom);
+  return (before - after) * static_cast<double>(degrees_of_freedom) > t * t * after;
+}
+
 PowerLaw fit_power_law(LevelView levels) {
   PowerLaw fit;
   if (levels.size() < 3) return fit;
@@ -201,7 +206,7 @@ CorrectedLaw fit_corrected_law_and_q(LevelView levels) {
     const Correction correction(logs, std::exp(log_q));
     return minimize([&](double z) { return correction.line(z).residual; }, lowest_z, highest_z, 12).value;
   };
-  const double q = std::exp(minimize(residual_at, std::log(0.25), std::log(4.0), 8).at);
+  const double q = std::exp(minimize(residual_at, std::log(0.25), std::log(3.0), 8).at);
   fit = fit_corrected_law_only(levels, q);
 
   const std::size_t n = levels.size(), parameters = 4;
@@ -255,6 +260,13 @@ CorrectedLaw fit_correction_of(LevelView levels, double order) {
   }
   fit.C = std::exp(mean);
   return fit;
+}
+
+double residual_of_order(LevelView levels, double order) {
+  if (levels.size() < 3) return not_estimated;
+  const Logarithms logs(levels);
+  const Correction correction(logs, 1.0);
+  return minimize([&](double z) { return correction.residual(z, order); }, lowest_z, highest_z, 24).value;
 }
 
 FlooredLaw fit_floored_law(LevelView levels) {

@@ -59,16 +59,24 @@ CorrectedLaw fit_corrected_law(LevelView levels, double q = 1.0);
 /// The same without the interval, which takes most of the time.
 CorrectedLaw fit_corrected_law_only(LevelView levels, double q = 1.0);
 
-/// q is fitted too, between 1/4 and 4; the interval is that of the linearized fit with levels - 4 degrees of freedom.
+/// q is fitted too, between 1/4 and 3, for what decays faster is no correction but an outlier; the interval is that of
+/// the linearized fit with levels - 4 degrees of freedom.
 CorrectedLaw fit_corrected_law_and_q(LevelView levels);
 
 /// The order is given and C, D, q are fitted: the correction that this order would need. No interval.
 CorrectedLaw fit_correction_of(LevelView levels, double order);
+
+/// The sum of squares of error = C v^order (1 + D v), with as many parameters as a power law.
+double residual_of_order(LevelView levels, double order);
 
 /// The interval is that of the profile over C and F.
 FlooredLaw fit_floored_law(LevelView levels);
 
 /// The t that a Student variable stays within, on both sides, with this probability.
 double student(double probability, std::size_t degrees_of_freedom);
+
+/// F test: true if one parameter more, or one level less, lowers the sum of squares from `before` to `after` by more
+/// than chance does with probability `level`. The degrees of freedom are those of `after`.
+bool significant(double before, double after, std::size_t degrees_of_freedom, double level);
 
 }  // namespace acstudy

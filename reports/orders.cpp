@@ -32,6 +32,9 @@ constexpr double explosion_factor = 10.0, explosion_power = 4.0;
 /// Corrections v^q with a smaller q cannot be told from logarithms.
 constexpr double slowest_correction = 0.4;
 
+/// A last pairwise order farther off than this is no scatter that could be averaged away.
+constexpr double widest_scatter = 0.25;
+
 struct Finding {
   Verdict verdict;
   std::string reason;
@@ -160,11 +163,12 @@ class Evidence {
 
   bool falling() const { return std::is_sorted(pairwise_.rbegin(), pairwise_.rend()); }
 
-  /// Most of the finest error is a floor, and the law with a floor fits better than any without.
+  /// Most of the finest error is a floor: the law with a floor fits better than a correction and, by an F test, a
+  /// power.
   bool has_floor() const {
     const double share = result_.floored.F / all_.back().error;
     return share > 0.5 && share < 2.0 && result_.floored.residual < result_.corrected.residual &&
-           result_.floored.residual < result_.fitted.residual;
+           significant(result_.fitted.residual, result_.floored.residual, inside_.size() - 3, 0.05);
   }
 
   Answer explodes() const {
@@ -261,7 +265,7 @@ class Evidence {
     const std::size_t n = inside_.size();
     const double scatter = std::sqrt(2.0 * result_.fitted.residual / static_cast<double>(n - 2)) /
                            std::log(inside_[n - 2].variable / inside_[n - 1].variable);
-    const bool by_chance = std::abs(last_ - theory_) <= 2.0 * scatter && !leaving();
+    const bool by_chance = std::abs(last_ - theory_) <= std::min(2.0 * scatter, widest_scatter) && !leaving();
     const bool extrapolates_elsewhere = result_.corrected.low > theory_ + extrapolation_tolerance ||
                                         result_.corrected.high < theory_ - extrapolation_tolerance;
     if (extrapolates_elsewhere || (!near(last_) && !by_chance)) return std::nullopt;
@@ -305,7 +309,9 @@ class Evidence {
       return !near(order) && (order > theory_) == (last_ > theory_);
     });
     const bool extrapolated = result_.corrected.low > theory_ || result_.corrected.high < theory_;
-    const bool fitted = !result_.fitted.contains(theory_) && one_side && !approaching();
+    // Where scatter hides an approach, a correction of theory's order fits better than another order.
+    const bool fitted = !result_.fitted.contains(theory_) && one_side && !approaching() &&
+                        result_.fitted.residual < residual_of_order(inside_, theory_);
     if (!extrapolated && !fitted) {
       return inconclusive(fmt::format("{} neither agrees with theory's {:g} nor excludes it; pairwise {}", estimates(),
                                       theory_, pairs()));

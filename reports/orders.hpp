@@ -52,7 +52,7 @@ inline constexpr double order_tolerance = 0.05;
 /// The same for an extrapolated order, which three parameters fitted to few levels leave less sharp.
 inline constexpr double extrapolation_tolerance = 0.1;
 /// A power law whose order has a wider interval than this, on either side, confirms nothing.
-inline constexpr double widest_half_width = 0.25;
+inline constexpr double widest_half_width = 0.15;
 
 struct JudgeOptions {
   double scale = 1.0;  ///< size of the solution; round-off is 1e-12 times this

@@ -1,5 +1,7 @@
 #include "reports/window.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -15,12 +17,6 @@ std::vector<Level> without(LevelView levels, std::size_t left_out) {
   std::vector<Level> rest(levels.begin(), levels.end());
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(left_out));
   return rest;
-}
-
-/// True if one more parameter, or one level less, lowers the sum of squares by more than chance explains.
-bool significant(double before, double after, std::size_t degrees_of_freedom, double level) {
-  const double t = student(1.0 - level, degrees_of_freedom);
-  return (before - after) * static_cast<double>(degrees_of_freedom) > t * t * after;
 }
 
 /// True if a level that is off by this much, in logarithms, moves the order between two levels out of tolerance.
@@ -52,20 +48,26 @@ CorrectedLaw fit_law(LevelView levels) {
 
 Asymptotics asymptotic_window(LevelView levels) {
   const std::size_t n = levels.size();
-  std::size_t first = n > 4 ? n - 4 : 0;
+  std::size_t first = n > 4 ? n - 4 : 0, parameters = 3;
+  CorrectedLaw law = fit_corrected_law_only(levels.subspan(first));
   for (; first > 0; --first) {
     const LevelView inside = levels.subspan(first), extended = levels.subspan(first - 1);
-    const CorrectedLaw law = fit_corrected_law_only(inside), wider = fit_corrected_law_only(extended);
+    CorrectedLaw wider = parameters == 3 ? fit_corrected_law_only(extended) : fit_corrected_law_and_q(extended);
     const Level& coarse = extended.front();
     const double expected = law.at(coarse.variable);
     const bool off =
         !(expected > 0.0) || matters(std::log(coarse.error / expected), coarse.variable / inside.front().variable);
-    if (off && significant(wider.residual, law.residual, inside.size() - 3, rejection) &&
-        !(extended.size() >= 6 && !matters(extended, fit_corrected_law_and_q(extended)))) {
-      break;
+    if (off && significant(wider.residual, law.residual, inside.size() - parameters, rejection)) {
+      if (parameters == 4 || extended.size() < 6) break;
+      // It may be the correction that has another exponent, if with it the wider window fits as well.
+      const double free = static_cast<double>(extended.size() - 4);
+      wider = fit_corrected_law_and_q(extended);
+      if (wider.residual > gsl_cdf_fdist_Pinv(0.95, free, free) * law.residual) break;
+      parameters = 4;
     }
+    law = wider;
   }
-  return {{first, n - 1}, fit_law(levels.subspan(first))};
+  return {{first, n - 1}, parameters == 4 ? law : fit_law(levels.subspan(first))};
 }
 
 std::optional<Outlier> find_outlier(LevelView levels) {

@@ -66,8 +66,9 @@ Minimum minimize(Function function, double first, double last, int cells) {
 }
 
 // The corrected law is fitted over z = log(1 + D v_0^q), v_0 the coarsest level: every z keeps 1 + D v^q positive on
-// all levels. At the bounds the correction changes the coarsest error by a factor of 20 and is no correction any more.
-constexpr double lowest_z = -3.0, highest_z = 3.0;
+// all levels. Beyond the bounds, D v_0^q = -0.95 and 3, the second term is no correction: as D grows the law turns into
+// a power law of order p + q, which fits as well as a small D does and means nothing.
+constexpr double lowest_z = -3.0, highest_z = 1.386;
 
 /// The corrected law at a given correction: what is left is a line.
 class Correction {

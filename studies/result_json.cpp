@@ -40,11 +40,9 @@ json series_json(const Study& study, const SeriesResult& result) {
       {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
   json pairwise = json::array();
   for (const double order : judgement.pairwise) pairwise.push_back(number(order));
-  out["observed"] = {{"order", number(judgement.order)},
-                     {"low", number(judgement.low)},
-                     {"high", number(judgement.high)},
-                     {"extrapolated", number(judgement.extrapolated)},
-                     {"pairwise", pairwise}};
+  for (const auto& [name, value] : named_estimates(judgement)) out["observed"][name] = number(value);
+  out["observed"]["extrapolated"] = number(judgement.extrapolated);
+  out["observed"]["pairwise"] = pairwise;
   out["verdict"] = name_of(judgement.verdict);
   out["expected"] = name_of(series.expected);
   out["as_expected"] = result.as_expected();

@@ -697,9 +697,10 @@ class Words(ProgramTest):
         done = self.acstudy("--version")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertRegex(done.stdout, r"\Aacstudy \d+\.\d+\.\d+\S*\n\Z")
-        for arguments, words in ((("--help",), ("run", "check", "explain", "list", "--version", "Exit codes", "130")),
+        for arguments, words in ((("--help",), ("run", "check", "fit", "explain", "list", "--version", "Exit codes", "130")),
                                  (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--repeats", "--fresh")),
                                  (("check", "--help"), ("FILE.json", "exit 1")),
+                                 (("fit", "--help"), ("TABLE.csv", "--variable", "--error", "--weight", "--order", "--json")),
                                  (("explain", "--help"), ("STUDY.toml",)),
                                  (("list", "--help"), ("schemes", "kernels", "integrators", "scenes"))):
             done = self.acstudy(*arguments)

@@ -172,7 +172,7 @@ std::string as_text(const Fit& fit) {
   std::string text = fmt::format("{:>5}  {:>11}  {:>11}  {:>8}\n", "level", v, fit.request.error, "order");
   for (std::size_t i = 0; i < fit.levels.size(); ++i) {
     text += fmt::format("{:>5}  {:>11.4g}  {:>11.4g}  {:>8}\n", i + 1, fit.levels[i].variable, fit.levels[i].error,
-                        i == 0 ? "" : fmt::format("{:.3f}", j.pairwise[i - 1]));
+                        i == 0 ? "-" : fmt::format("{:.3f}", j.pairwise[i - 1]));
   }
   text += "\norder and 95 % interval\n";
   const auto row = [&text](const std::string& model, const std::string& order, const std::string& rest) {

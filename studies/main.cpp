@@ -1,5 +1,5 @@
 /// @file
-/// The command line: acstudy run | check | explain | list.
+/// The command line: acstudy run | check | fit | explain | list.
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -17,6 +17,7 @@
 #include "build_info.hpp"
 #include "studies/check.hpp"
 #include "studies/explain.hpp"
+#include "studies/fit.hpp"
 #include "studies/runner.hpp"
 #include "studies/study_file.hpp"
 
@@ -230,6 +231,21 @@ int main(int argc, char** argv) {
       app.add_subcommand("check", "The gate: judge result files; exit 1 if a verdict departs");
   check_command->add_option("FILE.json", files, "result files")->required();
 
+  FitRequest request;
+  bool json = false;
+  CLI::App* const fit_command =
+      app.add_subcommand("fit", "Judge a table of errors; exit 0 only if they have the order of --order");
+  fit_command->add_option("TABLE.csv", request.file, "a table whose first line names its columns")->required();
+  fit_command->add_option("--variable", request.variable, "column of the variable")
+      ->type_name("NAME")
+      ->capture_default_str();
+  fit_command->add_option("--error", request.error, "column of the errors")->type_name("NAME")->capture_default_str();
+  fit_command
+      ->add_option("--weight", request.weight, "column of weights, as one over the variance of the relative error")
+      ->type_name("NAME");
+  fit_command->add_option("--order", request.order, "theory's order; 0: the error must settle")->type_name("P");
+  fit_command->add_flag("--json", json, "print one JSON object");
+
   CLI::App* const explain_command =
       app.add_subcommand("explain", "Print what a study computes and what it leaves out; computes nothing");
   explain_command->add_option("STUDY.toml", files, "study files")->required();
@@ -245,7 +261,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto used = app.get_subcommands();
     if (used.empty() && argc > 1) {
-      say(fmt::format("unknown command \"{}\"; write run, check, explain or list; see acstudy --help", argv[1]));
+      say(fmt::format("unknown command \"{}\"; write run, check, fit, explain or list; see acstudy --help", argv[1]));
       return bad_input;
     }
     say(fmt::format("{}; see acstudy {}--help", error.what(), used.empty() ? "" : used.front()->get_name() + " "));
@@ -260,6 +276,10 @@ int main(int argc, char** argv) {
       status = run(files, options);
     } else if (*check_command) {
       status = check(files);
+    } else if (*fit_command) {
+      const Fit fit = fit_table(request);
+      fmt::print("{}", json ? as_json(fit) : as_text(fit));
+      status = fit.passes() ? done : departs;
     } else if (*list_command) {
       status = list(what);
     } else {

@@ -22,13 +22,12 @@ using json = nlohmann::ordered_json;
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json observed_json(const Judgement& judgement) {
-  json pairwise = json::array();
-  for (const double order : judgement.pairwise) pairwise.push_back(number(order));
-  return {{"order", number(judgement.order)},
-          {"low", number(judgement.low)},
-          {"high", number(judgement.high)},
-          {"extrapolated", number(judgement.extrapolated)},
-          {"pairwise", pairwise}};
+  json out;
+  for (const auto& [name, value] : named_estimates(judgement)) out[name] = number(value);
+  out["extrapolated"] = number(judgement.extrapolated);
+  out["pairwise"] = json::array();
+  for (const double order : judgement.pairwise) out["pairwise"].push_back(number(order));
+  return out;
 }
 
 json series_json(const Study& study, const SeriesResult& result) {

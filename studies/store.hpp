@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/provenance.hpp"
@@ -50,6 +51,10 @@ struct StudyResult {
 
 /// The reason of a series of which a case could not be computed; its verdict is `inconclusive`.
 std::string not_computed(const std::string& failure);
+
+/// The estimates of a judgement by the names that both result files give them, after "observed_" in the one. Levels
+/// count from 1.
+std::vector<std::pair<std::string, double>> named_estimates(const Judgement& judgement);
 
 /// Judges a series on its completed cases.
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results);

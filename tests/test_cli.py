@@ -685,8 +685,10 @@ class Readme(ProgramTest):
         readme = (ROOT / "README.md").read_text(encoding="utf-8")
         study, = re.findall(r'```toml\n(\[study\]\nname = "first".*?)```', readme, re.S)
         shown = re.findall(r"```console\n\$ build/acstudy (.*?)\n(.*?)```", readme, re.S)
-        self.assertEqual([command for command, _ in shown], ["explain first.toml", "run first.toml --out out"])
+        self.assertEqual([command for command, _ in shown], ["explain first.toml", "run first.toml --out out",
+                                                          "fit errors.csv --order 1"])
         self.write("first.toml", study)
+        self.write("errors.csv", *re.findall(r"```csv\n(.*?)```", readme, re.S))
         for command, output in shown:
             with self.subTest(command):
                 self.assertEqual(self.acstudy(*command.split()).stdout, output)
@@ -697,9 +699,10 @@ class Words(ProgramTest):
         done = self.acstudy("--version")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertRegex(done.stdout, r"\Aacstudy \d+\.\d+\.\d+\S*\n\Z")
-        for arguments, words in ((("--help",), ("run", "check", "explain", "list", "--version", "Exit codes", "130")),
+        for arguments, words in ((("--help",), ("run", "check", "fit", "explain", "list", "--version", "Exit codes", "130")),
                                  (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--repeats", "--fresh")),
                                  (("check", "--help"), ("FILE.json", "exit 1")),
+                                 (("fit", "--help"), ("TABLE.csv", "--variable", "--error", "--weight", "--order", "--json")),
                                  (("explain", "--help"), ("STUDY.toml",)),
                                  (("list", "--help"), ("schemes", "kernels", "integrators", "scenes"))):
             done = self.acstudy(*arguments)

@@ -11,12 +11,14 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <thread>
 
 #include "build_info.hpp"
 #include "studies/check.hpp"
 #include "studies/explain.hpp"
+#include "studies/gate.hpp"
 #include "studies/runner.hpp"
 #include "studies/study_file.hpp"
 
@@ -56,18 +58,45 @@ std::vector<Study> read_studies(const std::vector<std::string>& files) {
   return studies;
 }
 
+/// What keeps a file from being made in a folder; empty if nothing does.
+std::string why_not_writable(const fs::path& folder) {
+  const fs::path probe = folder / ".acstudy-writable";
+  std::FILE* const file = std::fopen(probe.c_str(), "w");
+  if (file == nullptr) return std::strerror(errno);
+  std::fclose(file);
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+  return "";
+}
+
 /// Makes the output folder and tries it, before hours of work depend on it.
 void prepare_folder(const fs::path& out) {
   std::error_code error;
   fs::create_directories(out, error);
-  const fs::path probe = out / ".acstudy-writable";
-  std::FILE* const file = error ? nullptr : std::fopen(probe.c_str(), "w");
-  if (file == nullptr) {
-    throw InputError(fmt::format("{}: cannot write to the output folder: {}; name another one with --out", out.string(),
-                                 error ? error.message() : std::strerror(errno)));
+  if (const std::string why = error ? error.message() : why_not_writable(out); !why.empty()) {
+    throw InputError(
+        fmt::format("{}: cannot write to the output folder: {}; name another one with --out", out.string(), why));
   }
-  std::fclose(file);
-  fs::remove(probe, error);
+}
+
+/// Throws unless the file can be written. It will be replaced as a whole, which no device or folder must be, and no
+/// result file: in `--junit *.json` the shell names the first of them.
+void require_writable(const fs::path& file) {
+  std::error_code ignored;
+  const bool replaceable = !fs::exists(file, ignored) || fs::is_regular_file(file, ignored);
+  std::string why;
+  if (!file.has_filename()) {
+    why = "it has no name";
+  } else if (file.extension() == ".json") {
+    why = "a result file has such a name";
+  } else if (!replaceable) {
+    why = "there is something that is no regular file";
+  } else {
+    why = why_not_writable(file.parent_path().empty() ? "." : file.parent_path());
+  }
+  if (why.empty()) return;
+  throw InputError(
+      fmt::format("{}: cannot write the JUnit file: {}; name another one with --junit", file.string(), why));
 }
 
 std::string interval(const Judgement& judgement) {
@@ -75,27 +104,16 @@ std::string interval(const Judgement& judgement) {
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", judgement.order, judgement.low, judgement.high);
 }
 
-/// A line of the table that `run` and `check` print.
-struct Row {
-  bool passes;
-  std::string study, series;
-  Judgement judgement;
-  Verdict expected;
-  std::string remark;
-};
-
-void print_table(const std::vector<Row>& rows) {
-  std::size_t study_width = 0, series_width = 0;
-  for (const Row& row : rows) {
-    study_width = std::max(study_width, row.study.size());
-    series_width = std::max(series_width, row.series.size());
-  }
-  for (const Row& row : rows) {
-    fmt::print("{:<6}  {:<{}}  {:<{}}  {:<20}  {}", row.passes ? "ok" : "DEPART", row.study, study_width, row.series,
-               series_width, interval(row.judgement), name_of(row.judgement.verdict));
-    if (!row.passes) fmt::print(", expected {}: {}", name_of(row.expected), row.remark);
-    fmt::print("\n");
-  }
+Row row_of(const std::string& file, const std::string& study, const std::string& label, const Judgement& judgement,
+           Verdict expected, const std::string& reason, bool passes) {
+  return {.file = file,
+          .study = study,
+          .name = label,
+          .observed = interval(judgement),
+          .verdict = std::string(name_of(judgement.verdict)),
+          .expected = std::string(name_of(expected)),
+          .reason = reason,
+          .passes = passes};
 }
 
 int run(const std::vector<std::string>& files, RunOptions options) {
@@ -111,17 +129,16 @@ int run(const std::vector<std::string>& files, RunOptions options) {
     for (const SeriesResult& series : study.series) {
       if (result.interrupted && series.completed().size() < series.results.size()) continue;
       const bool passes = series.as_expected();
-      rows.push_back({passes, study.study->name, series.series->label(), series.judgement, series.series->expected,
-                      series.judgement.reason});
+      rows.push_back(row_of({}, study.study->name, series.series->label(), series.judgement, series.series->expected,
+                            series.judgement.reason, passes));
       if (!passes) {
         const bool numerical = series.failed() || series.judgement.verdict == Verdict::unstable;
         status = std::max<int>(status, numerical ? numerical_failure : departs);
       }
     }
   }
-  print_table(rows);
-  fmt::print("{} cases computed, {} taken from the store; results in {}\n", result.computed, result.reused,
-             options.out.string());
+  fmt::print("{}{} cases computed, {} taken from the store; results in {}\n", table_text(rows), result.computed,
+             result.reused, options.out.string());
   if (result.interrupted) {
     say("interrupted; finished cases are stored, and the same command goes on from them");
     return interrupted;
@@ -129,19 +146,18 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   return status;
 }
 
-int check(const std::vector<std::string>& files) {
+int check(const std::vector<std::string>& files, const std::optional<std::string>& junit, bool github) {
+  if (junit) require_writable(*junit);
   std::vector<Row> rows;
-  std::size_t departing = 0;
   for (const std::string& file : files) {
     for (const CheckedSeries& series : check_file(file)) {
-      rows.push_back({series.passes(), series.record.study, series.record.label, series.judgement,
-                      series.record.expected, series.remark()});
-      departing += series.passes() ? 0 : 1;
+      rows.push_back(row_of(file, series.record.study, series.record.label, series.judgement, series.record.expected,
+                            series.remark(), series.passes()));
     }
   }
-  print_table(rows);
-  fmt::print("{} series, {} as expected, {} departing\n", rows.size(), rows.size() - departing, departing);
-  return departing == 0 ? done : departs;
+  fmt::print("{}{}{}", table_text(rows), count_text(rows), github ? github_text(rows) : "");
+  if (junit) replace_atomically(*junit, junit_text(rows));
+  return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.passes; }) ? done : departs;
 }
 
 int list(const std::string& what) {
@@ -194,6 +210,8 @@ int main(int argc, char** argv) {
   RunOptions options;
   options.jobs = available_processors();
   std::string out = options.out.string(), what;
+  std::optional<std::string> junit;
+  bool github = false;
 
   CLI::App* const run_command = app.add_subcommand("run", "Run every case of the studies that is not stored yet");
   run_command->add_option("STUDY.toml", files, "study files")->required();
@@ -211,6 +229,8 @@ int main(int argc, char** argv) {
   CLI::App* const check_command =
       app.add_subcommand("check", "The gate: judge result files; exit 1 if a verdict departs");
   check_command->add_option("FILE.json", files, "result files")->required();
+  check_command->add_option("--junit", junit, "write the gates as JUnit XML, too")->type_name("FILE");
+  check_command->add_flag("--github", github, "print an annotation for GitHub Actions per gate that departs");
 
   CLI::App* const explain_command =
       app.add_subcommand("explain", "Print what a study computes and what it leaves out; computes nothing");
@@ -241,7 +261,7 @@ int main(int argc, char** argv) {
       for (int i = 0; i < argc; ++i) options.command += (i > 0 ? " " : "") + std::string(argv[i]);
       status = run(files, options);
     } else if (*check_command) {
-      status = check(files);
+      status = check(files, junit, github);
     } else if (*list_command) {
       status = list(what);
     } else {

@@ -229,7 +229,7 @@ ResultRecord read_json(const std::string& file) {
   ResultRecord all;
   try {
     const json root = json::parse(text.str());
-    const std::string study = root.at("study").get<std::string>();
+    const std::string& study = all.study = root.at("study").get<std::string>();
     if (root.contains("findings")) {
       all.findings_planned = root.at("findings_planned").get<std::size_t>();
       for (const json& finding : root.at("findings")) all.findings.push_back(read_finding(study, finding));

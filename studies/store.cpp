@@ -226,7 +226,8 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
   return image;
 }
 
-/// Writes a temporary file beside `file`, then puts it in place in one step.
+}  // namespace
+
 void replace_atomically(const fs::path& file, std::span<const char> content) {
   const fs::path temporary = file.string() + fmt::format(".{}.partial", getpid());
   std::FILE* const stream = std::fopen(temporary.c_str(), "wb");
@@ -241,11 +242,9 @@ void replace_atomically(const fs::path& file, std::span<const char> content) {
   if (good) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw StoreError(fmt::format("{}: cannot be written: {}; free space or name another folder with --out", file.string(),
-                               std::strerror(error)));
+  throw StoreError(
+      fmt::format("{}: cannot be written: {}; free space or name another place", file.string(), std::strerror(error)));
 }
-
-}  // namespace
 
 std::vector<std::size_t> SeriesResult::completed() const {
   std::vector<std::size_t> indices;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -75,6 +76,10 @@ std::string findings_key(const Study& study);
 /// The content of a study's HDF5 file; empty if there is no such file.
 /// @throws StoreError if the file is there but cannot be read as a store
 StoredCases load_cases(const std::filesystem::path& file);
+
+/// Writes a temporary file beside `file`, then puts it in place in one step.
+/// @throws StoreError
+void replace_atomically(const std::filesystem::path& file, std::span<const char> content);
 
 /// Writes `<out>/<study>.h5` and `<out>/<study>.json`, each whole or not at all (temporary file, then rename). Cases
 /// that were not completed are left out of both.

@@ -150,6 +150,16 @@ TEST_CASE("the reported 95 % interval contains the true order 93 to 97 times in 
   }
 }
 
+TEST_CASE("where the correction is no multiple of v the interval promises less, as documented") {
+  for (const double q : {0.5, 2.0}) {
+    const auto rows = interval_coverage(400, seed, q);
+    CAPTURE(q, coverage(rows, "two terms"));
+    CHECK(covers(coverage(rows, "power law")));
+    CHECK(coverage(rows, "two terms") < 0.93);
+    CHECK(coverage(rows, "two terms") > (q < 1.0 ? 0.4 : 0.75));
+  }
+}
+
 TEST_CASE("coverage is the same in every call and differs with the seed") {
   const auto one = interval_coverage(50, 7), same = interval_coverage(50, 7), other = interval_coverage(50, 8);
   for (std::size_t i = 0; i < one.size(); ++i) {

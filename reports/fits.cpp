@@ -111,7 +111,11 @@ class Correction {
 /// The point farthest from `inside` toward `end` at which a function does not exceed `bound`. It may do so in between.
 template <class Function>
 double boundary(Function function, double inside, double end, double bound) {
-  const auto excess = [&](double z) { return function(z) - bound; };
+  // Errors over hundreds of decades overflow; what cannot be evaluated is no fit.
+  const auto excess = [&](double z) {
+    const double value = function(z) - bound;
+    return std::isnan(value) ? std::numeric_limits<double>::max() : value;
+  };
   constexpr int cells = 12;
   double outer = end, at_outer = excess(end);
   if (!(at_outer > 0.0)) return end;

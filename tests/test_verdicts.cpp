@@ -1,9 +1,11 @@
 // The judge is judged: on series whose right verdict or order is known from how they are made.
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "reports/corpus.hpp"
 #include "reports/coverage.hpp"
+#include "reports/random.hpp"
 #include "tests/catch.hpp"
 
 using namespace acstudy;
@@ -113,6 +115,26 @@ TEST_CASE("judges that are known to be wrong fail on the corpus") {
   }
 }
 
+TEST_CASE("whatever the levels are, there is a verdict, a reason and an interval around its order") {
+  std::mt19937_64 generator(seed);
+  int judged = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<Level> levels;
+    double v = std::pow(10.0, -10 + 20 * uniform(generator));
+    const double decades = generator() % 2 == 0 ? 600 : 4;
+    for (std::size_t n = generator() % 9; levels.size() < n;) {
+      levels.push_back({v, std::pow(10.0, decades * (uniform(generator) - 0.5)), std::exp(40 * uniform(generator))});
+      v /= 1 + (generator() % 5 == 0 ? 1e-9 : 10.0) * uniform(generator);
+    }
+    for (const double theory : {0.0, 1.0, not_estimated}) {
+      const Judgement j = judge(levels, theory);
+      if (std::isfinite(j.order)) ++judged;
+      if (j.reason.empty() || j.low > j.order || j.high < j.order) FAIL_CHECK("trial " << trial << ": " << j.reason);
+    }
+  }
+  CHECK(judged > 2000);
+}
+
 TEST_CASE("the reported 95 % interval contains the true order 93 to 97 times in 100") {
   const std::vector<CoverageRow> rows = interval_coverage(1000, seed);
   REQUIRE(rows.size() == 10);
@@ -125,6 +147,16 @@ TEST_CASE("the reported 95 % interval contains the true order 93 to 97 times in 
   // More levels say more.
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (rows[i].series == rows[i - 1].series) CHECK(rows[i].mean_width < rows[i - 1].mean_width);
+  }
+}
+
+TEST_CASE("where the correction is no multiple of v the interval promises less, as documented") {
+  for (const double q : {0.5, 2.0}) {
+    const auto rows = interval_coverage(400, seed, q);
+    CAPTURE(q, coverage(rows, "two terms"));
+    CHECK(covers(coverage(rows, "power law")));
+    CHECK(coverage(rows, "two terms") < 0.93);
+    CHECK(coverage(rows, "two terms") > (q < 1.0 ? 0.4 : 0.75));
   }
 }
 

@@ -32,7 +32,8 @@ Finding consistency_whatever_delta(const Subject& subject, const Estimate& estim
 /// @pre path.nonlocal_source == estimate.nonlocal
 Finding consistency_along(const Subject& subject, const Estimate& estimate, const PathChoice& path);
 
-/// Sharpness of Lemma 3.2 where delta = ratio h, ratio < 1/2: order 2 in h, order 1 on jittered particles.
+/// Sharpness of Lemma 3.2 where delta = ratio h, ratio < 1/2: order 2 in h; on jittered particles
+/// at least 1.
 Finding order_below_spacing(const Subject& subject, const Estimate& estimate, const std::vector<std::int64_t>& N,
                             double ratio);
 

@@ -3,6 +3,7 @@
 /// @file
 /// What claims of theory are examined on, and the bounds of a scene's fields that enter them.
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -38,6 +39,9 @@ struct Sweep {
   /// The horizons at N particles; those of half the period and more, which no scheme takes, are left out.
   std::vector<double> deltas(std::int64_t N, double period) const;
 };
+
+/// True if `value` is farther out than `than`. NaN is the worst.
+inline bool worse(double value, double than) { return std::isnan(value) || value > than; }
 
 /// Max norms over the period at time t, from 4096 samples and their differences, raised by 1/1000: more than that
 /// misses of fields with up to 10 waves per period.

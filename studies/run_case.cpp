@@ -49,7 +49,7 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t le
     seconds.push_back(result.seconds);
     source_seconds.push_back(result.source_seconds);
     total += result.seconds;
-  } while (std::isfinite(result.error_linf) &&
+  } while (least_repeats > 0 && std::isfinite(result.error_linf) &&
            (seconds.size() < least_repeats || (seconds.size() < most_repeats && total < enough_seconds)));
 
   const auto median = [](std::vector<double> values) {

@@ -34,7 +34,7 @@ struct CaseResult {
 
 /// Runs a case, several times if it is short, so that its run time means something.
 ///
-/// @param least_repeats  runs of a case however long it is
+/// @param least_repeats  runs of a case however long it is; 0: one run, its time is of no interest
 /// @param stop  looked at between time steps; once true the run ends with `completed` false
 CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats = 1);
 

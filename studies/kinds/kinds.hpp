@@ -16,6 +16,10 @@ void read_convergence(const Table& root, Study& study);
 /// Truncation errors of the operators, no time stepping. Lemmas 2.3, 2.5, 3.2, 3.4.
 void read_consistency(const Table& root, Study& study);
 
+/// Errors over the plane of horizon and spacing, against the local and the nonlocal solution: in which limits a scheme
+/// converges, and to what. Theorems 2.6 - 2.8, 3.5 - 3.7.
+void read_map(const Table& root, Study& study);
+
 /// `name` as a study file writes it in [study] kind; `read` fills what the header does not.
 struct Kind {
   std::string_view name, meaning;
@@ -26,6 +30,7 @@ struct Kind {
 inline constexpr std::array kinds = {
     Kind{"convergence", "errors of runs along refinement paths", read_convergence},
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
+    Kind{"map", "errors over the plane of horizon and spacing", read_map},
 };
 
 }  // namespace acstudy

@@ -19,6 +19,8 @@ void read_consistency(const Table& root, Study& study);
 /// Errors over the plane of horizon and spacing, against the local and the nonlocal solution: in which limits a scheme
 /// converges, and to what. Theorems 2.6 - 2.8, 3.5 - 3.7.
 void read_map(const Table& root, Study& study);
+/// What part of the finest errors of convergence studies is of the time step, of the source's quadrature, of round-off.
+void read_pollution(const Table& root, Study& study);
 
 /// `name` as a study file writes it in [study] kind; `read` fills what the header does not.
 struct Kind {
@@ -31,6 +33,7 @@ inline constexpr std::array kinds = {
     Kind{"convergence", "errors of runs along refinement paths", read_convergence},
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
     Kind{"map", "errors over the plane of horizon and spacing", read_map},
+    Kind{"pollution", "parts of the finest errors that are not of the scheme in space", read_pollution},
 };
 
 }  // namespace acstudy

@@ -17,7 +17,7 @@ struct RunOptions {
   std::filesystem::path out = "reports/out";
   int jobs = 1;             ///< cases that run at the same time
   bool fresh = false;       ///< run stored cases again
-  std::size_t repeats = 1;  ///< least number of timed runs of a case; those of a convergence study are timed
+  std::size_t repeats = 1;  ///< least number of timed runs of a case
   std::string command;
 };
 

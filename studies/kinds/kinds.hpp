@@ -21,6 +21,10 @@ void read_consistency(const Table& root, Study& study);
 void read_map(const Table& root, Study& study);
 /// What part of the finest errors of convergence studies is of the time step, of the source's quadrature, of round-off.
 void read_pollution(const Table& root, Study& study);
+/// The judge on synthetic series whose right verdict is known.
+void read_corpus(const Table& root, Study& study);
+/// How often the reported interval contains the true order.
+void read_coverage(const Table& root, Study& study);
 
 /// `name` as a study file writes it in [study] kind; `read` fills what the header does not.
 struct Kind {
@@ -34,6 +38,8 @@ inline constexpr std::array kinds = {
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
     Kind{"map", "errors over the plane of horizon and spacing", read_map},
     Kind{"pollution", "parts of the finest errors that are not of the scheme in space", read_pollution},
+    Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},
+    Kind{"coverage", "how often the 95 % interval contains the true order", read_coverage},
 };
 
 }  // namespace acstudy

@@ -14,7 +14,7 @@ configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release $(CMAKE_ARGS)
 # its own number of jobs, not that of the make which calls it
 compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
 
-# What the finest errors are made of is no gate, and takes as long as all other studies.
+# What the finest errors are made of takes longer than all gates together.
 gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 
 .PHONY: help studies test check mutants bench build format format-check clean compiled compiled-tests drawable

@@ -14,7 +14,8 @@ namespace {
 template <class Motion>
 CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
   const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
-  const auto source = make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule);
+  const auto source =
+      make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule, c.source_refinement);
   return advance<Motion>(c, *scheme, *source, stop);
 }
 
@@ -30,8 +31,8 @@ CaseResult failed(const std::string& reason) {
 
 }  // namespace
 
-CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats) {
-  constexpr std::size_t most_repeats = 5;
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats, bool timed) {
+  const std::size_t most_repeats = timed ? 5 : 1;
   constexpr double enough_seconds = 0.1;
 
   std::vector<double> seconds, source_seconds;

@@ -69,10 +69,11 @@ std::unique_ptr<Scheme> make_scheme(const SchemeChoice& choice, const Scene& sce
 }
 
 std::unique_ptr<Source> make_source(const SchemeChoice& choice, const Scene& scene, double mu, bool nonlocal,
-                                    double delta, SourceRule rule) {
+                                    double delta, SourceRule rule, std::size_t refinement) {
   if (!nonlocal) return local_source(scene);
   KernelProfile kernel = with_kernel(choice.kernel, [](const auto& k) { return profile(k); });
-  return nonlocal_source(scene, {choice.model, choice.nonlocal_divergence, std::move(kernel), delta, mu}, rule);
+  return nonlocal_source(scene, {choice.model, choice.nonlocal_divergence, std::move(kernel), delta, mu}, rule,
+                         refinement);
 }
 
 }  // namespace acstudy

@@ -97,6 +97,7 @@ json finding_json(const Finding& finding) {
   out["verdict"] = name_of(judgement.verdict);
   out["promised"] = name_of(finding.promised);
   out["expected"] = name_of(finding.expected);
+  for (const Verdict verdict : finding.also_expected) out["also_expected"].push_back(name_of(verdict));
   out["as_expected"] = finding.as_expected();
   out["alarm"] = finding.alarm();
   out["reason"] = judgement.reason;
@@ -159,6 +160,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   finding.theory_order = finding.test == Test::order ? real(one.at("theory_order")) : 0.0;
   finding.promised = verdict(one.at("promised"));
   finding.expected = verdict(one.at("expected"));
+  for (const json& also : one.value("also_expected", json::array())) finding.also_expected.push_back(verdict(also));
   for (const json& point : one.at("points")) {
     Point& p = finding.points.emplace_back();
     p.N = point.at("N").get<std::int64_t>();

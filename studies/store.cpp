@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "studies/h5.hpp"
 #include "studies/result_json.hpp"
@@ -137,6 +138,9 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
   h5::write_number(group, "theory_order", finding.theory_order);
   h5::write_text(group, "promised", std::string(name_of(finding.promised)));
   h5::write_text(group, "expected", std::string(name_of(finding.expected)));
+  std::string also;
+  for (const Verdict verdict : finding.also_expected) also += (also.empty() ? "" : " ") + std::string(name_of(verdict));
+  h5::write_text(group, "also_expected", also);
   h5::write_text(group, "verdict", std::string(name_of(finding.judgement.verdict)));
   h5::write_text(group, "reason", finding.judgement.reason);
   h5::write_number<std::int64_t>(group, "as_expected", finding.as_expected() ? 1 : 0);
@@ -162,6 +166,8 @@ Finding read_finding(hid_t group) {
   finding.theory_order = h5::read_number(group, "theory_order");
   finding.promised = verdict_from(h5::read_text(group, "promised")).value();
   finding.expected = verdict_from(h5::read_text(group, "expected")).value();
+  std::istringstream also(h5::read_text(group, "also_expected"));
+  for (std::string name; also >> name;) finding.also_expected.push_back(verdict_from(name).value());
   Columns columns;
   finding.points.resize(h5::read_column<double>(group, "value").size());
   for (std::size_t i = 0; i < finding.points.size(); ++i) {

@@ -31,8 +31,8 @@ CaseResult failed(const std::string& reason) {
 
 }  // namespace
 
-CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats) {
-  constexpr std::size_t most_repeats = 5;
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats, bool timed) {
+  const std::size_t most_repeats = timed ? 5 : 1;
   constexpr double enough_seconds = 0.1;
 
   std::vector<double> seconds, source_seconds;

@@ -35,7 +35,8 @@ struct CaseResult {
 /// Runs a case, several times if it is short, so that its run time means something.
 ///
 /// @param least_repeats  runs of a case however long it is
+/// @param timed  false where only the solution counts: one run, unless `least_repeats` asks for more
 /// @param stop  looked at between time steps; once true the run ends with `completed` false
-CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats = 1);
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats = 1, bool timed = true);
 
 }  // namespace acstudy

@@ -179,7 +179,9 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   Progress progress(jobs.size(), work);
   std::mutex mutex;
   std::exception_ptr failure = in_parallel(jobs.size(), options.jobs, stop, [&](std::size_t i) {
-    const CaseResult result = run_case(*jobs[i].c, stop, options.repeats);
+    const bool timed = std::any_of(jobs[i].wanted_by.begin(), jobs[i].wanted_by.end(),
+                                   [&](const auto& place) { return studies[place.study].judged_by_series(); });
+    const CaseResult result = run_case(*jobs[i].c, stop, options.repeats, timed);
     const std::lock_guard lock(mutex);
     if (!result.completed) return;
     ++run.computed;

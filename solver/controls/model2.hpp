@@ -88,16 +88,18 @@ class ModelII {
     u.wrap(windows.widest);
     for (std::ptrdiff_t j = 0; j < std::ssize(u); ++j) {
       const std::vector<double> W = weights(j);
-      double A = 0.0, D = 0.0, B = 0.0, reach = particles_->delta;
+      double N_j = 0.0, A = 0.0, D = 0.0, B = 0.0, reach = particles_->delta;
       std::size_t k = 0, p = first_[static_cast<std::size_t>(j)];
       for_each_neighbor(windows, j, [&](std::ptrdiff_t i) {
+        N_j += (x[i] - x[j]) * W[k];
         A += c_hat_[p] * (u[j] + u[i]) * W[k];
         D += (u[i] - u[j]) / (x[i] - x[j]) * W[k];
         if constexpr (std::is_same_v<Divergence, NonlocalDivergence>) B += 2.0 * b_[p] * W[k];
         reach = std::max(reach, std::abs(x[i] - x[j]));
         ++k, ++p;
       });
-      du[j] = (-A + Mistake::viscous_factor(mu_, particles_->delta, reach) * D - B * u[j]) / renormalization(j);
+      du[j] =
+          (-A + Mistake::viscous_factor(mu_, particles_->delta, reach) * D - B * u[j]) / Mistake::renormalization(N_j);
       if constexpr (std::is_same_v<Divergence, LocalDivergence>) du[j] -= b_prime_[static_cast<std::size_t>(j)] * u[j];
       work_.pairs += std::ssize(W);
     }

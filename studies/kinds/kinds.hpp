@@ -16,6 +16,9 @@ void read_convergence(const Table& root, Study& study);
 /// Truncation errors of the operators, no time stepping. Lemmas 2.3, 2.5, 3.2, 3.4.
 void read_consistency(const Table& root, Study& study);
 
+/// Schemes, and schemes with a mistake, before every kind of check: which check notices which mistake.
+void read_controls(const Table& root, Study& study);
+
 /// `name` as a study file writes it in [study] kind; `read` fills what the header does not.
 struct Kind {
   std::string_view name, meaning;
@@ -26,6 +29,7 @@ struct Kind {
 inline constexpr std::array kinds = {
     Kind{"convergence", "errors of runs along refinement paths", read_convergence},
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
+    Kind{"controls", "which check notices which deliberate mistake", read_controls},
 };
 
 }  // namespace acstudy

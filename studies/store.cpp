@@ -63,9 +63,9 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   h5::write_text(group, "theory_variable", series.theory.variable);
   h5::write_number(group, "theory_order", series.theory.order);
   h5::write_text(group, "theory_statement", series.theory.statement);
-  h5::write_number(group, "observed_order", result.judgement.order);
-  h5::write_number(group, "observed_low", result.judgement.low);
-  h5::write_number(group, "observed_high", result.judgement.high);
+  for (const auto& [name, value] : named_estimates(result.judgement)) {
+    h5::write_number(group, "observed_" + name, value);
+  }
   h5::write_number(group, "extrapolated_order", result.judgement.extrapolated);
   h5::write_text(group, "verdict", std::string(name_of(result.judgement.verdict)));
   h5::write_text(group, "expected", std::string(name_of(series.expected)));
@@ -226,7 +226,8 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
   return image;
 }
 
-/// Writes a temporary file beside `file`, then puts it in place in one step.
+}  // namespace
+
 void replace_atomically(const fs::path& file, std::span<const char> content) {
   const fs::path temporary = file.string() + fmt::format(".{}.partial", getpid());
   std::FILE* const stream = std::fopen(temporary.c_str(), "wb");
@@ -241,11 +242,9 @@ void replace_atomically(const fs::path& file, std::span<const char> content) {
   if (good) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw StoreError(fmt::format("{}: cannot be written: {}; free space or name another folder with --out", file.string(),
-                               std::strerror(error)));
+  throw StoreError(
+      fmt::format("{}: cannot be written: {}; free space or name another place", file.string(), std::strerror(error)));
 }
-
-}  // namespace
 
 std::vector<std::size_t> SeriesResult::completed() const {
   std::vector<std::size_t> indices;
@@ -256,6 +255,28 @@ std::vector<std::size_t> SeriesResult::completed() const {
 }
 
 std::string not_computed(const std::string& failure) { return "a case could not be computed: " + failure; }
+
+std::vector<std::pair<std::string, double>> named_estimates(const Judgement& j) {
+  const auto number = [](std::size_t level) { return static_cast<double>(level + 1); };
+  return {{"order", j.order},
+          {"low", j.low},
+          {"high", j.high},
+          {"window_first", number(j.window.first)},
+          {"window_last", number(j.window.last)},
+          {"fitted", j.fitted.order},
+          {"fitted_low", j.fitted.low},
+          {"fitted_high", j.fitted.high},
+          {"extrapolated_low", j.corrected.low},
+          {"extrapolated_high", j.corrected.high},
+          {"correction_D", j.corrected.D},
+          {"correction_q", j.corrected.q},
+          {"floor", j.floored.F},
+          {"floor_order", j.floored.order},
+          {"floor_low", j.floored.low},
+          {"floor_high", j.floored.high},
+          {"leave_one_out", j.leave_one_out.change},
+          {"leave_one_out_level", std::isnan(j.leave_one_out.change) ? not_estimated : number(j.leave_one_out.level)}};
+}
 
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results) {
   std::vector<Level> levels;

@@ -18,6 +18,10 @@ void read_consistency(const Table& root, Study& study);
 
 /// Schemes, and schemes with a mistake, before every kind of check: which check notices which mistake.
 void read_controls(const Table& root, Study& study);
+/// The judge on synthetic series whose right verdict is known.
+void read_corpus(const Table& root, Study& study);
+/// How often the reported interval contains the true order.
+void read_coverage(const Table& root, Study& study);
 
 /// `name` as a study file writes it in [study] kind; `read` fills what the header does not.
 struct Kind {
@@ -30,6 +34,8 @@ inline constexpr std::array kinds = {
     Kind{"convergence", "errors of runs along refinement paths", read_convergence},
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
     Kind{"controls", "which check notices which deliberate mistake", read_controls},
+    Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},
+    Kind{"coverage", "how often the 95 % interval contains the true order", read_coverage},
 };
 
 }  // namespace acstudy

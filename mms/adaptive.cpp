@@ -136,4 +136,12 @@ double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model,
   return sum;
 }
 
+double kernel_moment_adaptively(const KernelProfile& kernel, int power, double z, SourceRule rule) {
+  const auto integrate = rule == SourceRule::gsl ? integrate_gsl : integrate_boost;
+  const double exponent = power - kernel.origin_exponent, middle = std::min(z, kernel.breakpoint);
+  const double inner = integrate(kernel.regular_part, 0.0, middle, exponent);
+  if (z <= middle) return inner;
+  return inner + integrate([&](double r) { return kernel.regular_part(r) * std::pow(r, exponent); }, middle, z, 0.0);
+}
+
 }  // namespace acstudy

@@ -17,4 +17,11 @@ namespace acstudy {
 double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model, SourceRule rule, double x, double t,
                                  std::int64_t& points);
 
+/// int_0^z r^power eta(r) dr on the unit horizon.
+///
+/// @param rule gsl (QAWS) or boost (tanh-sinh)
+/// @throws std::runtime_error as above
+/// @pre  power - (the kernel's origin exponent) > -1, 0 < z <= 1
+double kernel_moment_adaptively(const KernelProfile& kernel, int power, double z, SourceRule rule);
+
 }  // namespace acstudy

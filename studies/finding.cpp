@@ -38,10 +38,12 @@ Judgement judge_bounds(const std::vector<Point>& points) {
 
 }  // namespace
 
-std::string_view name_of(Test test) { return test == Test::order ? "order" : "bounds"; }
+std::string_view name_of(Test test) {
+  return test == Test::order ? "order" : test == Test::rate ? "rate" : "bounds";
+}
 
 std::optional<Test> test_from(std::string_view name) {
-  for (const Test test : {Test::order, Test::bounds}) {
+  for (const Test test : {Test::order, Test::rate, Test::bounds}) {
     if (name_of(test) == name) return test;
   }
   return std::nullopt;
@@ -54,7 +56,25 @@ void judge(Finding& finding) {
   }
   std::vector<Level> levels;
   for (const Point& point : finding.points) levels.push_back({point.variable, point.value});
-  finding.judgement = judge(levels, finding.theory_order);
+  Judgement& judgement = finding.judgement = judge(levels, finding.theory_order);
+  if (finding.test == Test::order) return;
+  switch (judgement.verdict) {
+    case Verdict::confirmed:
+    case Verdict::pre_asymptotic:
+    case Verdict::above:
+    case Verdict::floor:
+      judgement.verdict = Verdict::holds;
+      break;
+    case Verdict::below:
+      // Bounds are no asymptotes: errors may stray below them, as long as the interval, if it is not too wide to tell
+      // half an order, reaches theory's.
+      judgement.verdict = judgement.high >= finding.theory_order - order_tolerance && judgement.high - judgement.low < 1.0
+                              ? Verdict::holds
+                              : Verdict::violated;
+      break;
+    default:
+      break;
+  }
 }
 
 }  // namespace acstudy

@@ -18,6 +18,7 @@ namespace acstudy {
 /// How the points of a finding are judged.
 enum class Test {
   order,   ///< the values vanish with theory's order in `variable`
+  rate,    ///< they vanish with at least that order: verdict `holds`, or that of the order that they have
   bounds,  ///< every value lies within [lower, upper]: verdict `holds` or `violated`
 };
 
@@ -42,7 +43,7 @@ struct Finding {
   std::string quantity;   ///< what the values are: "max |rate + f - du/dt|"
   Test test;
   std::string variable;                ///< name of `Point::variable`: "h"
-  double theory_order = 0.0;           ///< of Test::order
+  double theory_order = 0.0;           ///< of Test::order and Test::rate
   Verdict promised;                    ///< the verdict if the statement is true
   Verdict expected;                    ///< the verdict that the study demands: another one for a negative control
   std::vector<Verdict> also_expected;  ///< verdicts that are as right as the expected one

@@ -4,6 +4,7 @@
 /// The kernels that a study can name: the one place where a name becomes a type.
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -45,6 +46,14 @@ auto with_kernel(const KernelChoice& choice, Visit&& visit) {
 /// True if Model II can use the kernel.
 inline bool integrable(const KernelChoice& choice) {
   return with_kernel(choice, []<class K>(const K&) { return IntegrableKernel<K>; });
+}
+
+/// int_0^1 eta, which is delta times the L1 norm of Model II's kernel; infinite if the kernel is not integrable.
+inline double total_mass(const KernelChoice& choice) {
+  return with_kernel(choice, []<class K>(const K& kernel) {
+    if constexpr (IntegrableKernel<K>) return kernel.mass(1.0);
+    return std::numeric_limits<double>::infinity();
+  });
 }
 
 }  // namespace acstudy

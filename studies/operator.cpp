@@ -7,7 +7,11 @@ namespace acstudy {
 
 PlacedScheme::PlacedScheme(const SchemeChoice& choice, const Scene& scene, double mu, const std::vector<double>& x,
                            double delta)
-    : scene_(scene), particles_(x.size(), scene.period(), delta), scheme_(make_scheme(choice, scene, mu)) {
+    : PlacedScheme(make_scheme(choice, scene, mu), scene, x, delta) {}
+
+PlacedScheme::PlacedScheme(std::unique_ptr<Scheme> scheme, const Scene& scene, const std::vector<double>& x,
+                           double delta)
+    : scene_(scene), particles_(x.size(), scene.period(), delta), scheme_(std::move(scheme)) {
   particles_.place(x);
   scheme_->place(particles_);
 }
@@ -56,6 +60,16 @@ PlacedScheme::Rows PlacedScheme::rows() {
   for (std::ptrdiff_t column = 0; column < (banded ? std::min(width, whole) : 0); ++column) take(column, width, whole);
   for (std::ptrdiff_t column = whole; column < n; ++column) take(column, n, n);
   return rows;
+}
+
+double step_norm(PlacedScheme& placed, double dt) {
+  const PlacedScheme::Rows rows = placed.rows();
+  const auto diagonal = static_cast<std::size_t>(-rows.first);
+  std::vector<double> sums(placed.size(), 0.0);
+  for (std::size_t j = 0; j < placed.size(); ++j) {
+    for (std::size_t k = 0; k < rows.width; ++k) sums[j] += std::abs((k == diagonal ? 1.0 : 0.0) + dt * rows(j, k));
+  }
+  return max_norm(sums);
 }
 
 double max_norm(const std::vector<double>& values) {

@@ -16,6 +16,8 @@ class PlacedScheme {
  public:
   /// @param x  increasing positions within one period  @pre the scene outlives this
   PlacedScheme(const SchemeChoice& choice, const Scene& scene, double mu, const std::vector<double>& x, double delta);
+  /// Any scheme, also one that no study can name.
+  PlacedScheme(std::unique_ptr<Scheme> scheme, const Scene& scene, const std::vector<double>& x, double delta);
 
   std::size_t size() const { return particles_.size(); }
   const Particles& particles() const { return particles_; }
@@ -44,6 +46,9 @@ class PlacedScheme {
   Particles particles_;
   std::unique_ptr<Scheme> scheme_;
 };
+
+/// Max norm of a forward Euler step I + dt R: the largest row sum of absolute values, exact to round-off.
+double step_norm(PlacedScheme& placed, double dt);
 
 /// Largest absolute value; NaN if one is.
 double max_norm(const std::vector<double>& values);

@@ -89,7 +89,7 @@ json finding_json(const Finding& finding) {
               {"check", finding.check},         {"quantity", finding.quantity}, {"test", name_of(finding.test)}};
   if (!finding.remark.empty()) out["remark"] = finding.remark;
   out["variable"] = finding.variable;
-  if (finding.test == Test::order) {
+  if (finding.test != Test::bounds) {
     out["theory_order"] = finding.theory_order;
     out["observed"] = observed_json(judgement);
   }
@@ -156,7 +156,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   const auto test = test_from(one.at("test").get<std::string>());
   if (!test) throw InputError("unknown test " + one.at("test").dump() + " in the result file");
   finding.test = *test;
-  finding.theory_order = finding.test == Test::order ? real(one.at("theory_order")) : 0.0;
+  finding.theory_order = finding.test != Test::bounds ? real(one.at("theory_order")) : 0.0;
   finding.promised = verdict(one.at("promised"));
   finding.expected = verdict(one.at("expected"));
   for (const json& also : one.value("also_expected", json::array())) finding.also_expected.push_back(verdict(also));

@@ -161,6 +161,35 @@ std::vector<std::int64_t> read_levels(const Table& table) {
   return N;
 }
 
+std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene) {
+  std::vector<Subject> subjects;
+  for (const SchemeEntry& entry : read_schemes(root, *scene)) {
+    for (const Arrangement arrangement : arrangements) {
+      if (arrangement == Arrangement::moved && scene->standing()) continue;
+      subjects.push_back({entry.scheme, entry.mu, scene, arrangement});
+    }
+  }
+  return subjects;
+}
+
+Sweep read_sweep(const Table& table) {
+  table.allow({"N", "ratios", "horizons"});
+  const auto lengths = [&](std::string_view key, std::string_view example) {
+    std::vector<double> values;
+    for (const toml::node& item : table.list(key, example)) {
+      values.push_back(table.number(key, item));
+      if (!std::isfinite(values.back()) || values.back() <= 0.0) {
+        table.place(item).fail(fmt::format("{} contains {}; every entry must be positive and finite: write {}", key,
+                                           values.back(), example));
+      }
+    }
+    return values;
+  };
+  Sweep sweep{read_levels(table), lengths("ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
+  if (table.find("horizons") != nullptr) sweep.horizons = lengths("horizons", "horizons = [0.2]");
+  return sweep;
+}
+
 Verdict read_expected(const Table& table, const toml::node& node) {
   std::vector<std::pair<std::string, Verdict>> words;
   for (int v = 0; v <= static_cast<int>(Verdict::inconclusive); ++v) {

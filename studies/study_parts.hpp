@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/claims/subject.hpp"
 #include "studies/study.hpp"
 #include "studies/toml_table.hpp"
 
@@ -27,6 +28,12 @@ std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene);
 
 /// N = [160, 320, ...], coarse to fine.
 std::vector<std::int64_t> read_levels(const Table& table);
+
+/// All of [[scheme]] on each arrangement of particles: uniform, jittered and, if particles move, moved.
+std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene);
+
+/// [sweep]: N, ratios and, optionally, horizons.
+Sweep read_sweep(const Table& table);
 
 /// A refinement path: the curve delta(h) and the levels on it.
 struct PathChoice {

@@ -15,7 +15,10 @@ namespace acstudy {
 void read_convergence(const Table& root, Study& study);
 /// Truncation errors of the operators, no time stepping. Lemmas 2.3, 2.5, 3.2, 3.4.
 void read_consistency(const Table& root, Study& study);
-
+/// What the weights satisfy exactly or within bounds. Remarks 2.1 and 2.2, (2.3), (3.4), (3.5), Lemma 3.1.
+void read_identities(const Table& root, Study& study);
+/// Exact max norms of a step. Lemmas 2.4 and 3.3.
+void read_stability(const Table& root, Study& study);
 /// Schemes, and schemes with a mistake, before every kind of check: which check notices which mistake.
 void read_controls(const Table& root, Study& study);
 /// The judge on synthetic series whose right verdict is known.
@@ -33,6 +36,8 @@ struct Kind {
 inline constexpr std::array kinds = {
     Kind{"convergence", "errors of runs along refinement paths", read_convergence},
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
+    Kind{"identities", "what the weights satisfy, exactly or within bounds", read_identities},
+    Kind{"stability", "max norm of a forward Euler step", read_stability},
     Kind{"controls", "which check notices which deliberate mistake", read_controls},
     Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},
     Kind{"coverage", "how often the 95 % interval contains the true order", read_coverage},

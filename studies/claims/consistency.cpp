@@ -1,0 +1,186 @@
+#include "studies/claims/consistency.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace acstudy {
+
+namespace {
+
+constexpr std::array model1_estimates = {
+    Estimate{"Lemma 2.3", "max |G_h - G|", false, true},
+    Estimate{"Lemma 2.5", "max |G_h - d/dx|", false, false},
+};
+constexpr std::array model2_estimates = {
+    Estimate{"Lemma 3.2, A", "max |A_h - A|", false, true},
+    Estimate{"Lemma 3.2, D", "max |D_h - D|", true, true},
+    Estimate{"Lemma 3.4, A", "max |A_h - d/dx|", false, false},
+    Estimate{"Lemma 3.4, D", "max |reach D_h|", true, false},
+};
+
+double variable(const Estimate& estimate, double h, double delta) { return estimate.nonlocal ? h : std::max(h, delta); }
+
+/// What the statement says, and what is known to hold instead.
+std::string claim(const Subject& subject, const Estimate& estimate) {
+  if (!estimate.nonlocal) return "O(max(h, delta))";
+  if (subject.scheme.model == 1) return "O(h), whatever delta";
+  return estimate.viscous ? "O(h) + O(h^3/delta^2)" : "O(h) + O(h^2/delta)";
+}
+
+double reach(const Particles& particles, std::ptrdiff_t j) {
+  const double* const x = particles.x.at(j);
+  return std::max({particles.delta, x[0] - x[-particles.windows.left[j]], x[particles.windows.right[j]] - x[0]});
+}
+
+/// The constant C of error <= C h, or C max(h, delta): Taylor's formula with the moments of the weights, no fit.
+double constant(const Subject& subject, const Estimate& estimate, const Gaps& gap) {
+  const FieldBounds f = field_bounds(*subject.scene, subject.t());
+  const double divergence = subject.scheme.nonlocal_divergence ? f.b_2 * f.u : 0.0;
+  if (subject.scheme.model == 1) return 0.5 * (f.flux_2 + divergence);
+  const double curvature = 0.5 * f.c_hat_2 * f.u + f.c_hat_1 * f.u_1 + f.c_hat * f.u_2 + 0.5 * divergence;
+  if (!estimate.nonlocal) return 0.5 * (estimate.viscous ? f.u_2 : curvature);
+  const double least_N = gap.smallest / (gap.smallest + gap.largest);
+  return total_mass(subject.scheme.kernel) / least_N * (estimate.viscous ? 0.5 * f.u_3 : 1.5 * curvature);
+}
+
+struct Worst {
+  double error = 0.0, h = 0.0;
+};
+
+/// The largest error over the arrangements, and the largest gap.
+Worst worst(const Subject& subject, const Estimate& estimate, std::int64_t N, double delta) {
+  Worst result;
+  for (const std::vector<double>& x : subject.positions(N)) {
+    const double error = estimate_error(subject, estimate, x, delta);
+    if (worse(error, result.error)) result.error = error;
+    result.h = std::max(result.h, gaps(x, subject.scene->period()).largest);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::span<const Estimate> estimates(int model) {
+  if (model == 1) return model1_estimates;
+  return model2_estimates;
+}
+
+double estimate_error(const Subject& subject, const Estimate& estimate, const std::vector<double>& x, double delta) {
+  const Scene& scene = *subject.scene;
+  const auto source = [&](double mu) { return make_source(subject.scheme, scene, mu, estimate.nonlocal, delta); };
+  PlacedScheme inviscid(subject.scheme, scene, 0.0, x, delta);
+  if (!estimate.viscous) return max_norm(inviscid.truncation_error(*source(0.0), subject.t()));
+
+  // With mu = 1/delta the viscous term is not lost in the others' round-off.
+  PlacedScheme viscous(subject.scheme, scene, 1.0 / delta, x, delta);
+  std::vector<double> u(x.size());
+  scene.u(viscous.particles().x.values(), subject.t(), u);
+  std::vector<double> D = viscous.rate(u);
+  const std::vector<double> rest = inviscid.rate(u);
+  for (std::size_t j = 0; j < x.size(); ++j) D[j] = (D[j] - rest[j]) * delta;
+  if (!estimate.nonlocal) return max_norm(D);
+
+  std::vector<double> f(x.size()), f_viscous(x.size());
+  const auto without = source(0.0), with = source(1.0 / delta);
+  without->place(viscous.particles().x.values());
+  without->evaluate(subject.t(), f);
+  with->place(viscous.particles().x.values());
+  with->evaluate(subject.t(), f_viscous);
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    D[j] = D[j] / reach(viscous.particles(), static_cast<std::ptrdiff_t>(j)) - (f[j] - f_viscous[j]);
+  }
+  return max_norm(D);
+}
+
+Finding consistency_whatever_delta(const Subject& subject, const Estimate& estimate, const Sweep& sweep) {
+  const char* const per = estimate.nonlocal ? "h" : "max(h, delta)";
+  Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), "whatever delta",
+                                    fmt::format("{} / {}", estimate.quantity, per), Test::bounds);
+  if (subject.scheme.model == 2 && estimate.nonlocal) {
+    finding.remark = "C h holds whatever delta, so the printed second term is not needed";
+  }
+  for (const std::int64_t N : sweep.N) {
+    Point point{.N = N, .value = 0.0, .upper = 0.0};
+    for (const std::vector<double>& x : subject.positions(N)) {
+      point.upper = std::max(point.upper, constant(subject, estimate, gaps(x, subject.scene->period())));
+    }
+    for (const double delta : sweep.deltas(N, subject.scene->period())) {
+      const Worst at = worst(subject, estimate, N, delta);
+      const double ratio = at.error / variable(estimate, at.h, delta);
+      if (!worse(ratio, point.value)) continue;
+      point.h = point.variable = at.h;
+      point.delta = delta;
+      point.value = ratio;
+    }
+    finding.points.push_back(point);
+  }
+  judge(finding);
+  return finding;
+}
+
+Finding consistency_along(const Subject& subject, const Estimate& estimate, const PathChoice& path) {
+  Finding finding =
+      subject.finding(std::string(estimate.statement), claim(subject, estimate), path.name,
+                      std::string(estimate.quantity), path.order ? Test::order : Test::rate);
+  finding.theory_order = path.order.value_or(1.0);
+  const bool settles = finding.theory_order == 0.0, in_h = estimate.nonlocal || settles;
+  finding.variable = in_h ? "h" : "max(h,delta)";
+  if (settles) finding.promised = Verdict::stagnates;
+  finding.expected = path.expect.value_or(finding.promised);
+  for (const std::int64_t N : path.N) {
+    const double count = static_cast<double>(N), delta = path.delta({subject.scene->period() / count, count});
+    const Worst at = worst(subject, estimate, N, delta);
+    finding.points.push_back({N, at.h, delta, in_h ? at.h : std::max(at.h, delta), at.error});
+  }
+  judge(finding);
+  return finding;
+}
+
+Finding order_below_spacing(const Subject& subject, const Estimate& estimate, const std::vector<std::int64_t>& N,
+                            double ratio) {
+  const bool smooth = subject.arrangement != Arrangement::jittered;
+  Finding finding = subject.finding(std::string(estimate.statement), "order in h where delta << h",
+                                    fmt::format("delta = {:g}h", ratio), std::string(estimate.quantity),
+                                    smooth ? Test::order : Test::rate);
+  finding.theory_order = smooth ? 2.0 : 1.0;
+  finding.remark = smooth ? "gaps differ by O(h^2): the nearest neighbors give central differences, O(h^2), and the "
+                            "nonlocal operator is within O(delta^2) of their limit"
+                          : "gaps differ by O(h): so do the difference quotients of the nearest neighbors from their "
+                            "limit";
+  for (const std::int64_t count : N) {
+    const double delta = ratio * subject.scene->period() / static_cast<double>(count);
+    const Worst at = worst(subject, estimate, count, delta);
+    finding.points.push_back({count, at.h, delta, at.h, at.error});
+  }
+  judge(finding);
+  return finding;
+}
+
+Finding growth_below_spacing(const Subject& subject, const Estimate& estimate, std::int64_t N,
+                             const std::vector<double>& ratios) {
+  const char* const term = estimate.viscous ? "h^3/delta^2" : "h^2/delta";
+  Finding finding = subject.finding(std::string(estimate.statement), fmt::format("grows like {} as delta -> 0", term),
+                                    "delta -> 0 at fixed h", std::string(estimate.quantity), Test::order);
+  finding.variable = "delta";
+  finding.promised = Verdict::diverges;
+  finding.expected = Verdict::stagnates;
+  finding.remark = fmt::format(
+      "not sharp: scheme and nonlocal operator are both within O(max(h, delta)) of the PDE's, so the error is O(h) where "
+      "delta < h and {} is not attained",
+      term);
+  std::vector<double> below(ratios);
+  std::erase_if(below, [](double ratio) { return ratio > 0.3; });
+  std::sort(below.rbegin(), below.rend());
+  for (const double ratio : below) {
+    const double delta = ratio * subject.scene->period() / static_cast<double>(N);
+    const Worst at = worst(subject, estimate, N, delta);
+    finding.points.push_back({N, at.h, delta, delta, at.error});
+  }
+  judge(finding);
+  return finding;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,50 @@
+#include "studies/claims/identities.hpp"
+
+#include <set>
+
+#include "studies/kinds/kinds.hpp"
+#include "studies/study_parts.hpp"
+
+namespace acstudy {
+
+void read_identities(const Table& root, Study& study) {
+  root.allow({"study", "scene", "scheme", "sweep"});
+  study.scene = read_scene(root.sub_table("scene"));
+  const Table sweep_table = root.sub_table("sweep");
+  const Sweep sweep = read_sweep(sweep_table);
+  const auto add = [&](std::string name, std::function<Finding()> take) {
+    study.measurements.push_back({std::move(name), [take = std::move(take)](const auto&) { return take(); }});
+  };
+  std::set<std::string> kernels;
+  for (const Subject& subject : read_subjects(root, study.scene)) {
+    const KernelChoice& kernel = subject.scheme.kernel;
+    if (kernels.insert(kernel.label()).second) {
+      add("(2.3): kernel " + kernel.label(), [=] { return kernel_moments(kernel); });
+    }
+    const auto add_for_subject = [&](const std::string& statement, const std::string& check,
+                                     std::function<Finding()> take) {
+      add(subject.finding(statement, {}, check, {}, Test::bounds).label(), std::move(take));
+    };
+    add_for_subject("Remark 2.1", "delta below every gap",
+                    [=] { return nearest_neighbor_rows(subject, sweep.N, 0.9); });
+    add_for_subject("Remark 2.1", "delta above every gap",
+                    [=] { return nearest_neighbor_rows(subject, sweep.N, 4.0); });
+    add_for_subject("Remark 2.2", "weights", [=] { return weights_are_not_negative(subject, sweep); });
+    add_for_subject(subject.scheme.model == 1 ? "Remark 2.2" : "(3.4)", "first moment",
+                    [=] { return first_moment_is_one(subject, sweep); });
+    if (subject.scheme.model == 1) continue;
+    add_for_subject("(3.4)", "sum of weights", [=] { return weights_cancel(subject, sweep); });
+    add_for_subject("(3.5)", "second moment", [=] { return second_moment_is_bounded(subject, sweep, false); });
+    add_for_subject("(3.5), with |W_k|", "second moment", [=] { return second_moment_is_bounded(subject, sweep, true); });
+    add_for_subject("Lemma 3.1", "whatever delta", [=] { return renormalization_is_near_one(subject, sweep); });
+    for (const double delta : sweep.horizons) {
+      add_for_subject("Lemma 3.1", "fixed horizon", [=] { return order_of_renormalization(subject, sweep.N, delta); });
+    }
+    if (subject.arrangement == Arrangement::jittered) {
+      add_for_subject("Lemma 3.1, as printed", "horizons just below a particle",
+                      [=] { return renormalization_is_at_least_one(subject, sweep.N.front()); });
+    }
+  }
+}
+
+}  // namespace acstudy

@@ -1,0 +1,59 @@
+#include "studies/claims/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "studies/kinds/kinds.hpp"
+#include "studies/study_parts.hpp"
+
+namespace acstudy {
+
+void read_stability(const Table& root, Study& study) {
+  root.allow({"study", "scene", "scheme", "sweep", "printed"});
+  study.scene = read_scene(root.sub_table("scene"));
+  const Table sweep_table = root.sub_table("sweep");
+  const Sweep sweep = read_sweep(sweep_table);
+  const std::vector<Subject> subjects = read_subjects(root, study.scene);
+
+  // The kernels with which Lemma 3.3 as printed is expected to fail.
+  std::set<std::string> failing;
+  if (root.find("printed") != nullptr) {
+    const Table printed = root.sub_table("printed");
+    printed.allow({"violated"});
+    for (const toml::node& item : printed.list("violated", "violated = [\"power(0.9)\"]")) {
+      const std::string kernel = printed.text("violated", item, "violated = [\"power(0.9)\"]");
+      if (std::none_of(subjects.begin(), subjects.end(), [&](const Subject& subject) {
+            return subject.scheme.model == 2 && subject.scheme.kernel.label() == kernel;
+          })) {
+        printed.place(item).fail(
+            fmt::format("no [[scheme]] of Model II has the kernel \"{}\"; name one of those as explain prints it", kernel));
+      }
+      failing.insert(kernel);
+    }
+  }
+
+  for (const Subject& subject : subjects) {
+    const auto add = [&](const std::string& statement, const std::string& check, std::function<Finding()> take) {
+      study.measurements.push_back({subject.finding(statement, {}, check, {}, Test::bounds).label(),
+                                    [take = std::move(take)](const auto&) { return take(); }});
+    };
+    const bool second = subject.scheme.model == 2;
+    const std::string lemma = second ? "Lemma 3.3" : "Lemma 2.4";
+    const Verdict expected =
+        second && failing.count(subject.scheme.kernel.label()) > 0 ? Verdict::violated : Verdict::holds;
+    add(lemma, "CFL 1", [=] {
+      Finding finding = step_is_bounded(subject, sweep, StepCondition::printed);
+      finding.expected = expected;
+      return finding;
+    });
+    add(lemma + ", corrected", "CFL 1", [=] { return step_is_bounded(subject, sweep, StepCondition::corrected); });
+    add(lemma + ", corrected", "CFL 1.5",
+        [=] { return step_is_bounded(subject, sweep, StepCondition::corrected, 1.5); });
+    if (second && subject.arrangement == Arrangement::uniform) {
+      add(lemma, "uneven gaps", [=] { return printed_condition_on_uneven_gaps(subject, sweep.N); });
+    }
+  }
+}
+
+}  // namespace acstudy

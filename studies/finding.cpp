@@ -38,9 +38,7 @@ Judgement judge_bounds(const std::vector<Point>& points) {
 
 }  // namespace
 
-std::string_view name_of(Test test) {
-  return test == Test::order ? "order" : test == Test::rate ? "rate" : "bounds";
-}
+std::string_view name_of(Test test) { return test == Test::order ? "order" : test == Test::rate ? "rate" : "bounds"; }
 
 std::optional<Test> test_from(std::string_view name) {
   for (const Test test : {Test::order, Test::rate, Test::bounds}) {
@@ -68,9 +66,10 @@ void judge(Finding& finding) {
     case Verdict::below:
       // Bounds are no asymptotes: errors may stray below them, as long as the interval, if it is not too wide to tell
       // half an order, reaches theory's.
-      judgement.verdict = judgement.high >= finding.theory_order - order_tolerance && judgement.high - judgement.low < 1.0
-                              ? Verdict::holds
-                              : Verdict::violated;
+      judgement.verdict =
+          judgement.high >= finding.theory_order - order_tolerance && judgement.high - judgement.low < 1.0
+              ? Verdict::holds
+              : Verdict::violated;
       break;
     default:
       break;

@@ -46,6 +46,54 @@ double constant(const Subject& subject, const Estimate& estimate, const Gaps& ga
   return total_mass(subject.scheme.kernel) / least_N * (estimate.viscous ? 0.5 * f.u_3 : 1.5 * curvature);
 }
 
+/// The errors of an estimate at one horizon. Finding the sources' quadrature costs more than using it, so they are made
+/// once for all arrangements.
+class ErrorAt {
+ public:
+  ErrorAt(const Subject& subject, const Estimate& estimate, double delta)
+      : subject_(subject), estimate_(estimate), delta_(delta), inviscid_(source(0.0)) {
+    if (estimate.viscous && estimate.nonlocal) viscous_ = source(strong());
+  }
+
+  double operator()(const std::vector<double>& x) {
+    const Scene& scene = *subject_.scene;
+    const double t = subject_.t();
+    PlacedScheme inviscid(subject_.scheme, scene, 0.0, x, delta_);
+    if (!estimate_.viscous) return max_norm(inviscid.truncation_error(*inviscid_, t));
+
+    PlacedScheme viscous(subject_.scheme, scene, strong(), x, delta_);
+    const auto positions = viscous.particles().x.values();
+    std::vector<double> u(x.size());
+    scene.u(positions, t, u);
+    std::vector<double> D = viscous.rate(u);
+    const std::vector<double> rest = inviscid.rate(u);
+    for (std::size_t j = 0; j < x.size(); ++j) D[j] = (D[j] - rest[j]) / strong();
+    if (!estimate_.nonlocal) return max_norm(D);
+
+    std::vector<double> f(x.size()), f_viscous(x.size());
+    inviscid_->place(positions);
+    inviscid_->evaluate(t, f);
+    viscous_->place(positions);
+    viscous_->evaluate(t, f_viscous);
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      D[j] = D[j] / reach(viscous.particles(), static_cast<std::ptrdiff_t>(j)) - (f[j] - f_viscous[j]);
+    }
+    return max_norm(D);
+  }
+
+ private:
+  /// A viscosity bound with which the viscous term is not lost in the others' round-off.
+  double strong() const { return 1.0 / delta_; }
+  std::unique_ptr<Source> source(double mu) const {
+    return make_source(subject_.scheme, *subject_.scene, mu, estimate_.nonlocal, delta_);
+  }
+
+  const Subject& subject_;
+  const Estimate& estimate_;
+  double delta_;
+  std::unique_ptr<Source> inviscid_, viscous_;
+};
+
 struct Worst {
   double error = 0.0, h = 0.0;
 };
@@ -53,8 +101,9 @@ struct Worst {
 /// The largest error over the arrangements, and the largest gap.
 Worst worst(const Subject& subject, const Estimate& estimate, std::int64_t N, double delta) {
   Worst result;
+  ErrorAt error_at(subject, estimate, delta);
   for (const std::vector<double>& x : subject.positions(N)) {
-    const double error = estimate_error(subject, estimate, x, delta);
+    const double error = error_at(x);
     if (worse(error, result.error)) result.error = error;
     result.h = std::max(result.h, gaps(x, subject.scene->period()).largest);
   }
@@ -69,30 +118,7 @@ std::span<const Estimate> estimates(int model) {
 }
 
 double estimate_error(const Subject& subject, const Estimate& estimate, const std::vector<double>& x, double delta) {
-  const Scene& scene = *subject.scene;
-  const auto source = [&](double mu) { return make_source(subject.scheme, scene, mu, estimate.nonlocal, delta); };
-  PlacedScheme inviscid(subject.scheme, scene, 0.0, x, delta);
-  if (!estimate.viscous) return max_norm(inviscid.truncation_error(*source(0.0), subject.t()));
-
-  // With mu = 1/delta the viscous term is not lost in the others' round-off.
-  PlacedScheme viscous(subject.scheme, scene, 1.0 / delta, x, delta);
-  std::vector<double> u(x.size());
-  scene.u(viscous.particles().x.values(), subject.t(), u);
-  std::vector<double> D = viscous.rate(u);
-  const std::vector<double> rest = inviscid.rate(u);
-  for (std::size_t j = 0; j < x.size(); ++j) D[j] = (D[j] - rest[j]) * delta;
-  if (!estimate.nonlocal) return max_norm(D);
-
-  std::vector<double> f(x.size()), f_viscous(x.size());
-  const auto without = source(0.0), with = source(1.0 / delta);
-  without->place(viscous.particles().x.values());
-  without->evaluate(subject.t(), f);
-  with->place(viscous.particles().x.values());
-  with->evaluate(subject.t(), f_viscous);
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    D[j] = D[j] / reach(viscous.particles(), static_cast<std::ptrdiff_t>(j)) - (f[j] - f_viscous[j]);
-  }
-  return max_norm(D);
+  return ErrorAt(subject, estimate, delta)(x);
 }
 
 Finding consistency_whatever_delta(const Subject& subject, const Estimate& estimate, const Sweep& sweep) {
@@ -122,9 +148,8 @@ Finding consistency_whatever_delta(const Subject& subject, const Estimate& estim
 }
 
 Finding consistency_along(const Subject& subject, const Estimate& estimate, const PathChoice& path) {
-  Finding finding =
-      subject.finding(std::string(estimate.statement), claim(subject, estimate), path.name,
-                      std::string(estimate.quantity), path.order ? Test::order : Test::rate);
+  Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), path.name,
+                                    std::string(estimate.quantity), path.order ? Test::order : Test::rate);
   finding.theory_order = path.order.value_or(1.0);
   const bool settles = finding.theory_order == 0.0, in_h = estimate.nonlocal || settles;
   finding.variable = in_h ? "h" : "max(h,delta)";
@@ -168,7 +193,8 @@ Finding growth_below_spacing(const Subject& subject, const Estimate& estimate, s
   finding.promised = Verdict::diverges;
   finding.expected = Verdict::stagnates;
   finding.remark = fmt::format(
-      "not sharp: scheme and nonlocal operator are both within O(max(h, delta)) of the PDE's, so the error is O(h) where "
+      "not sharp: scheme and nonlocal operator are both within O(max(h, delta)) of the PDE's, so the error is O(h) "
+      "where "
       "delta < h and {} is not attained",
       term);
   std::vector<double> below(ratios);

@@ -25,6 +25,7 @@ struct Measured {
 struct View {
   std::vector<double> z, W;
   double N, h, delta;  ///< h: the largest gap of the arrangement
+  double ulp_of_gap;   ///< an ulp of a position, relative to the smallest gap
   /// Round-off of a sum over the neighbors whose terms sum to one in absolute value.
   double round_off() const { return (static_cast<double>(z.size()) + 4.0) * epsilon; }
   double sum(const std::function<double(double z, double W)>& term) const {
@@ -34,9 +35,10 @@ struct View {
   }
 };
 
-View view(const PlacedScheme& placed, std::ptrdiff_t j, double h) {
+View view(const PlacedScheme& placed, std::ptrdiff_t j, const Gaps& gap) {
   Stencil stencil = placed.scheme().stencil(j);
-  View view{{}, std::move(stencil.weight), stencil.renormalization, h, placed.particles().delta};
+  View view{{},          std::move(stencil.weight), stencil.renormalization,
+            gap.largest, placed.particles().delta,  epsilon * placed.particles().period / gap.smallest};
   const double* const x = placed.particles().x.at(j);
   for (const std::ptrdiff_t k : stencil.offset) view.z.push_back(x[k] - x[0]);
   return view;
@@ -51,12 +53,12 @@ void measure(Finding& finding, const Subject& subject, const Sweep& sweep,
       Measured worst{-HUGE_VAL, 0.0};
       for (const std::vector<double>& x : subject.positions(N)) {
         const PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
-        const double h = gaps(x, subject.scene->period()).largest;
+        const Gaps gap = gaps(x, subject.scene->period());
         for (std::ptrdiff_t j = 0; j < static_cast<std::ptrdiff_t>(x.size()); ++j) {
-          const Measured measured = of(view(placed, j, h));
+          const Measured measured = of(view(placed, j, gap));
           if (!worse(measured.excess(), worst.excess())) continue;
           worst = measured;
-          point.h = h;
+          point.h = gap.largest;
         }
       }
       point.variable = delta / point.h;
@@ -77,11 +79,10 @@ std::string remark_or(const Subject& subject, const char* model1, const char* mo
 
 Finding nearest_neighbor_rows(const Subject& subject, const std::vector<std::int64_t>& N, double ratio) {
   const Scene& scene = *subject.scene;
-  Finding finding =
-      subject.finding(remark_or(subject, "Remark 2.1", "Remark 2.1 for Model II"),
-                      remark_or(subject, "the upwind difference", "central difference and nearest-neighbor viscosity"),
-                      fmt::format("delta = {:g} h_min", ratio),
-                      "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
+  Finding finding = subject.finding(
+      remark_or(subject, "Remark 2.1", "Remark 2.1 for Model II"),
+      remark_or(subject, "the upwind difference", "central difference and nearest-neighbor viscosity"),
+      fmt::format("delta = {:g} h_min", ratio), "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
   if (ratio > 1.0) {
     finding.promised = finding.expected = Verdict::violated;
     finding.remark = "negative control: farther neighbors count";
@@ -133,7 +134,7 @@ Finding nearest_neighbor_rows(const Subject& subject, const std::vector<std::int
                                 .delta = ratio * gap.smallest,
                                 .variable = gap.largest,
                                 .value = largest / scene.max_relative_velocity(),
-                                .upper = 32.0 * epsilon});
+                                .upper = 32.0 * epsilon + 2.0 * epsilon * scene.period() / gap.smallest});
     }
   }
   judge(finding);
@@ -160,17 +161,17 @@ Finding first_moment_is_one(const Subject& subject, const Sweep& sweep) {
   Finding finding = subject.finding(first ? "Remark 2.2" : "(3.4), first moment",
                                     first ? "sum d_k W_k = 1" : "sum (x_i - x_j) W_k / N_j = 1", "first moment",
                                     "max |sum - 1|", Test::bounds);
-  finding.remark = "bound: an ulp per neighbor and four more";
+  finding.remark = "bound: an ulp per neighbor and four more, and an ulp of a position relative to a gap";
   measure(finding, subject, sweep, [](const View& particle) {
     const double moment = particle.sum([](double z, double W) { return std::abs(z * W); }) / particle.N;
-    return Measured{std::abs(moment - 1.0), particle.round_off()};
+    return Measured{std::abs(moment - 1.0), particle.round_off() + particle.ulp_of_gap};
   });
   return finding;
 }
 
 Finding weights_cancel(const Subject& subject, const Sweep& sweep) {
-  Finding finding =
-      subject.finding("(3.4), sum of weights", "sum W_k = 0", "sum of weights", "max |sum W_k| / sum |W_k|", Test::bounds);
+  Finding finding = subject.finding("(3.4), sum of weights", "sum W_k = 0", "sum of weights",
+                                    "max |sum W_k| / sum |W_k|", Test::bounds);
   finding.remark = "bound: an ulp per neighbor and four more";
   measure(finding, subject, sweep, [](const View& particle) {
     const double sum = particle.sum([](double, double W) { return W; });
@@ -180,11 +181,9 @@ Finding weights_cancel(const Subject& subject, const Sweep& sweep) {
 }
 
 Finding second_moment_is_bounded(const Subject& subject, const Sweep& sweep, bool one_sided) {
-  Finding finding = subject.finding(one_sided ? "(3.5), with |W_k|" : "(3.5)",
-                                    "second moment at most max(h, delta)", "second moment",
-                                    one_sided ? "max sum z^2 |W_k| / (N_j max(h, delta))"
-                                              : "max |sum z^2 W_k| / (N_j max(h, delta))",
-                                    Test::bounds);
+  Finding finding = subject.finding(
+      one_sided ? "(3.5), with |W_k|" : "(3.5)", "second moment at most max(h, delta)", "second moment",
+      one_sided ? "max sum z^2 |W_k| / (N_j max(h, delta))" : "max |sum z^2 W_k| / (N_j max(h, delta))", Test::bounds);
   if (one_sided) finding.remark = "what Lemma 3.4 rests on: the printed sum is smaller, since its two sides cancel";
   measure(finding, subject, sweep, [one_sided](const View& particle) {
     const double sum = particle.sum([&](double z, double W) { return z * z * (one_sided ? std::abs(W) : W); });
@@ -195,13 +194,14 @@ Finding second_moment_is_bounded(const Subject& subject, const Sweep& sweep, boo
 
 Finding renormalization_is_near_one(const Subject& subject, const Sweep& sweep) {
   const double mass = total_mass(subject.scheme.kernel);
-  Finding finding = subject.finding("Lemma 3.1", "|N_j - 1| <= C h/delta", "whatever delta",
-                                    "max |N_j - 1| delta / h", Test::bounds);
-  finding.remark = fmt::format("C = int_0^1 eta = {:.6g}: no particle is farther than h from any point of its cell", mass);
+  Finding finding =
+      subject.finding("Lemma 3.1", "|N_j - 1| <= C h/delta", "whatever delta", "max |N_j - 1| delta / h", Test::bounds);
+  finding.remark =
+      fmt::format("C = int_0^1 eta = {:.6g}: no particle is farther than h from any point of its cell", mass);
   measure(finding, subject, sweep, [mass](const View& particle) {
     const double ratio = particle.delta / particle.h;
-    return Measured{std::abs(particle.N - 1.0) * ratio, mass * (1.0 + particle.round_off()) +
-                                                            particle.round_off() * ratio};
+    return Measured{std::abs(particle.N - 1.0) * ratio,
+                    mass * (1.0 + particle.round_off()) + particle.round_off() * ratio};
   });
   return finding;
 }
@@ -211,8 +211,9 @@ Finding order_of_renormalization(const Subject& subject, const std::vector<std::
                                     "max |N_j - 1|", Test::rate);
   for (const std::int64_t count : N) {
     Finding one = subject.finding({}, {}, {}, {}, Test::bounds);
-    measure(one, subject, {{count}, {}, {delta}},
-            [](const View& particle) { return Measured{std::abs(particle.N - 1.0), 0.0}; });
+    measure(one, subject, {{count}, {}, {delta}}, [](const View& particle) {
+      return Measured{std::abs(particle.N - 1.0), 0.0};
+    });
     Point& point = finding.points.emplace_back(one.points.front());
     point.variable = point.h / delta;
     point.upper = HUGE_VAL;
@@ -224,31 +225,38 @@ Finding order_of_renormalization(const Subject& subject, const std::vector<std::
 }
 
 Finding renormalization_is_at_least_one(const Subject& subject, std::int64_t N) {
-  Finding finding =
-      subject.finding("Lemma 3.1, as printed", "N_j >= 1", "horizons just below a particle", "min N_j", Test::bounds);
+  Finding finding = subject.finding("Lemma 3.1, as printed", "N_j >= 1", {}, "min N_j", Test::bounds);
+  finding.check = "gaps in every pattern of 1, 4 and 20, horizons just below a particle";
   finding.expected = Verdict::violated;
-  finding.remark =
-      "the outermost cell ends at the horizon, and all of its weight is put at its one particle: where the next one is "
-      "just beyond the horizon, that is far inside";
   const double period = subject.scene->period();
-  for (const std::vector<double>& x : subject.positions(N)) {
-    Point least{.N = N, .h = gaps(x, period).largest, .value = HUGE_VAL, .lower = 1.0};
-    for (std::size_t i = 0; i < x.size(); ++i) {
+  Point least{.N = N, .value = HUGE_VAL, .lower = 1.0};
+  constexpr int lengths[] = {1, 4, 20};
+  for (int pattern = 0; pattern < 81; ++pattern) {
+    const int gap[] = {lengths[pattern % 3], lengths[pattern / 3 % 3], lengths[pattern / 9 % 3], lengths[pattern / 27]};
+    const double unit = period / static_cast<double>(N / 4 * (gap[0] + gap[1] + gap[2] + gap[3]));
+    std::vector<double> x;
+    int position = 0;
+    for (std::int64_t j = 0; j < N; position += gap[j++ % 4]) x.push_back(unit * position);
+    for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 2; k < 6; ++k) {
-        const double distance = x[(i + k) % x.size()] - x[i];
-        const double delta = (1.0 - 1e-6) * (distance > 0.0 ? distance : distance + period);
+        const double delta = (1.0 - 1e-6) * (x[i + k] - x[i]);
         const PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
-        for (std::ptrdiff_t j = 0; j < static_cast<std::ptrdiff_t>(x.size()); ++j) {
+        for (std::ptrdiff_t j = 0; j < 4; ++j) {
           const double value = placed.scheme().stencil(j).renormalization;
           if (!worse(-value, -least.value)) continue;
           least.value = value;
+          least.h = gaps(x, period).largest;
           least.delta = delta;
           least.variable = delta / least.h;
+          finding.remark = fmt::format(
+              "gaps like {}, {}, {}, {}: the outermost cell ends at the horizon, and where the next particle is just "
+              "beyond it, the cell's own particle is far inside",
+              gap[0], gap[1], gap[2], gap[3]);
         }
       }
     }
-    finding.points.push_back(least);
   }
+  finding.points.push_back(least);
   finding.variable = "delta/h";
   judge(finding);
   return finding;

@@ -25,8 +25,9 @@ Finding second_moment_is_bounded(const Subject& subject, const Sweep& sweep, boo
 Finding renormalization_is_near_one(const Subject& subject, const Sweep& sweep);
 /// Model II, Lemma 3.1: the largest |N_j - 1| at a fixed horizon is at least of order 1 in h/delta.
 Finding order_of_renormalization(const Subject& subject, const std::vector<std::int64_t>& N, double delta);
-/// Model II, Lemma 3.1 as printed: N_j >= 1. Searches the horizons just below a particle of the arrangement, where the
-/// outermost cell is longest, for the smallest N_j.
+/// Model II, Lemma 3.1 as printed: N_j >= 1. Searches for the smallest N_j: every pattern of four gaps with the ratios
+/// 1, 4, 20, and horizons just below a particle, where the outermost cell is longest. It is below one.
+/// @pre N is a multiple of 4, at least 12; the subject's own arrangement does not matter
 Finding renormalization_is_at_least_one(const Subject& subject, std::int64_t N);
 
 /// (2.3) and its twin for Model II by adaptive quadrature, by two libraries: the first moment is one, and the closed

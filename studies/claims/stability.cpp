@@ -50,8 +50,8 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
   const double growth = fields.c_hat_1 + fields.b_1;
   Finding finding = subject.finding(
       std::string(subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3") + (corrected ? ", corrected" : ""),
-      growth == 0.0 ? "maximum principle" : "norm <= 1 + dt (||c_hat'|| + ||b'||)",
-      fmt::format("CFL {:g}", cfl), "max norm of I + dt R", Test::bounds);
+      growth == 0.0 ? "maximum principle" : "norm <= 1 + dt (||c_hat'|| + ||b'||)", fmt::format("CFL {:g}", cfl),
+      "max norm of I + dt R", Test::bounds);
   finding.variable = "delta/h";
   if (cfl > 1.0) {
     finding.promised = finding.expected = Verdict::violated;
@@ -79,8 +79,8 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
 
 Finding printed_condition_on_uneven_gaps(const Subject& subject, const std::vector<std::int64_t>& N) {
   const FieldBounds fields = field_bounds(*subject.scene, 0.0);
-  Finding finding = subject.finding("Lemma 3.3", "norm <= 1 + dt (||c_hat'|| + ||b'||)", {}, "max norm of I + dt R",
-                                    Test::bounds);
+  Finding finding =
+      subject.finding("Lemma 3.3", "norm <= 1 + dt (||c_hat'|| + ||b'||)", {}, "max norm of I + dt R", Test::bounds);
   finding.check = "gaps h/2, h/2, 3h/2, 3h/2, ..., delta just below 2h, CFL 1";
   finding.expected = Verdict::violated;
   finding.remark =

@@ -26,8 +26,8 @@ void read_stability(const Table& root, Study& study) {
       if (std::none_of(subjects.begin(), subjects.end(), [&](const Subject& subject) {
             return subject.scheme.model == 2 && subject.scheme.kernel.label() == kernel;
           })) {
-        printed.place(item).fail(
-            fmt::format("no [[scheme]] of Model II has the kernel \"{}\"; name one of those as explain prints it", kernel));
+        printed.place(item).fail(fmt::format(
+            "no [[scheme]] of Model II has the kernel \"{}\"; name one of those as explain prints it", kernel));
       }
       failing.insert(kernel);
     }

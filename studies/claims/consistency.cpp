@@ -11,20 +11,20 @@ namespace acstudy {
 namespace {
 
 constexpr std::array model1_estimates = {
-    Estimate{"Lemma 2.3", "max |G_h - G|", false, true},
-    Estimate{"Lemma 2.5", "max |G_h - d/dx|", false, false},
+    LemmaEstimate{"Lemma 2.3", "max |G_h - G|", false, true},
+    LemmaEstimate{"Lemma 2.5", "max |G_h - d/dx|", false, false},
 };
 constexpr std::array model2_estimates = {
-    Estimate{"Lemma 3.2, A", "max |A_h - A|", false, true},
-    Estimate{"Lemma 3.2, D", "max |D_h - D|", true, true},
-    Estimate{"Lemma 3.4, A", "max |A_h - d/dx|", false, false},
-    Estimate{"Lemma 3.4, D", "max |reach D_h|", true, false},
+    LemmaEstimate{"Lemma 3.2, A", "max |A_h - A|", false, true},
+    LemmaEstimate{"Lemma 3.2, D", "max |D_h - D|", true, true},
+    LemmaEstimate{"Lemma 3.4, A", "max |A_h - d/dx|", false, false},
+    LemmaEstimate{"Lemma 3.4, D", "max |reach D_h|", true, false},
 };
 
-double variable(const Estimate& estimate, double h, double delta) { return estimate.nonlocal ? h : std::max(h, delta); }
+double variable(const LemmaEstimate& estimate, double h, double delta) { return estimate.nonlocal ? h : std::max(h, delta); }
 
 /// What the statement says, and what is known to hold instead.
-std::string claim(const Subject& subject, const Estimate& estimate) {
+std::string claim(const Subject& subject, const LemmaEstimate& estimate) {
   if (!estimate.nonlocal) return "O(max(h, delta))";
   if (subject.scheme.model == 1) return "O(h), whatever delta";
   return estimate.viscous ? "O(h) + O(h^3/delta^2)" : "O(h) + O(h^2/delta)";
@@ -36,7 +36,7 @@ double reach(const Particles& particles, std::ptrdiff_t j) {
 }
 
 /// The constant C of error <= C h, or C max(h, delta): Taylor's formula with the moments of the weights, no fit.
-double constant(const Subject& subject, const Estimate& estimate, const Gaps& gap) {
+double constant(const Subject& subject, const LemmaEstimate& estimate, const Gaps& gap) {
   const FieldBounds f = field_bounds(*subject.scene, subject.t());
   const double divergence = subject.scheme.nonlocal_divergence ? f.b_2 * f.u : 0.0;
   if (subject.scheme.model == 1) return 0.5 * (f.flux_2 + divergence);
@@ -50,7 +50,7 @@ double constant(const Subject& subject, const Estimate& estimate, const Gaps& ga
 /// once for all arrangements.
 class ErrorAt {
  public:
-  ErrorAt(const Subject& subject, const Estimate& estimate, double delta)
+  ErrorAt(const Subject& subject, const LemmaEstimate& estimate, double delta)
       : subject_(subject), estimate_(estimate), delta_(delta), inviscid_(source(0.0)) {
     if (estimate.viscous && estimate.nonlocal) viscous_ = source(strong());
   }
@@ -89,7 +89,7 @@ class ErrorAt {
   }
 
   const Subject& subject_;
-  const Estimate& estimate_;
+  const LemmaEstimate& estimate_;
   double delta_;
   std::unique_ptr<Source> inviscid_, viscous_;
 };
@@ -99,7 +99,7 @@ struct Worst {
 };
 
 /// The largest error over the arrangements, and the largest gap.
-Worst worst(const Subject& subject, const Estimate& estimate, std::int64_t N, double delta) {
+Worst worst(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N, double delta) {
   Worst result;
   ErrorAt error_at(subject, estimate, delta);
   for (const std::vector<double>& x : subject.positions(N)) {
@@ -112,16 +112,16 @@ Worst worst(const Subject& subject, const Estimate& estimate, std::int64_t N, do
 
 }  // namespace
 
-std::span<const Estimate> estimates(int model) {
+std::span<const LemmaEstimate> estimates(int model) {
   if (model == 1) return model1_estimates;
   return model2_estimates;
 }
 
-double estimate_error(const Subject& subject, const Estimate& estimate, const std::vector<double>& x, double delta) {
+double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x, double delta) {
   return ErrorAt(subject, estimate, delta)(x);
 }
 
-Finding consistency_whatever_delta(const Subject& subject, const Estimate& estimate, const Sweep& sweep) {
+Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep) {
   const char* const per = estimate.nonlocal ? "h" : "max(h, delta)";
   Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), "whatever delta",
                                     fmt::format("{} / {}", estimate.quantity, per), Test::bounds);
@@ -147,7 +147,7 @@ Finding consistency_whatever_delta(const Subject& subject, const Estimate& estim
   return finding;
 }
 
-Finding consistency_along(const Subject& subject, const Estimate& estimate, const PathChoice& path) {
+Finding consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path) {
   Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), path.name,
                                     std::string(estimate.quantity), path.order ? Test::order : Test::rate);
   finding.theory_order = path.order.value_or(1.0);
@@ -164,7 +164,7 @@ Finding consistency_along(const Subject& subject, const Estimate& estimate, cons
   return finding;
 }
 
-Finding order_below_spacing(const Subject& subject, const Estimate& estimate, const std::vector<std::int64_t>& N,
+Finding order_below_spacing(const Subject& subject, const LemmaEstimate& estimate, const std::vector<std::int64_t>& N,
                             double ratio) {
   const bool smooth = subject.arrangement != Arrangement::jittered;
   Finding finding = subject.finding(std::string(estimate.statement), "order in h where delta << h",
@@ -184,7 +184,7 @@ Finding order_below_spacing(const Subject& subject, const Estimate& estimate, co
   return finding;
 }
 
-Finding growth_below_spacing(const Subject& subject, const Estimate& estimate, std::int64_t N,
+Finding growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
                              const std::vector<double>& ratios) {
   const char* const term = estimate.viscous ? "h^3/delta^2" : "h^2/delta";
   Finding finding = subject.finding(std::string(estimate.statement), fmt::format("grows like {} as delta -> 0", term),

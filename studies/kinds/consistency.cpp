@@ -14,7 +14,7 @@ void read_consistency(const Table& root, Study& study) {
   for (const Table& table : root.array_of_tables("path")) paths.push_back(read_path(table));
 
   for (const Subject& subject : read_subjects(root, study.scene)) {
-    for (const Estimate& estimate : estimates(subject.scheme.model)) {
+    for (const LemmaEstimate& estimate : estimates(subject.scheme.model)) {
       // D does not depend on how the divergence is written.
       if (estimate.viscous && subject.scheme.nonlocal_divergence) continue;
       const auto add = [&](const std::string& check, std::function<Finding()> take) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "studies/claims/identities.hpp"
 #include "studies/claims/stability.hpp"
@@ -39,7 +40,7 @@ Finding along_path(const Series& series, const SeriesResult& result) {
                   .test = Test::order,
                   .variable = series.theory.variable,
                   .theory_order = series.theory.order,
-                  .promised = Verdict::confirmed};
+                  .promised = series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed};
   for (std::size_t i = 0; i < series.cases.size(); ++i) {
     const Case& c = series.cases[i];
     finding.points.push_back({c.N, c.h, c.delta, series.variable(c.h, c.delta), result.results[i].error_linf});
@@ -57,7 +58,7 @@ Finding consistency(const Subject& subject, const PathChoice& path) {
       nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {}, "max |rate + f - du/dt|",
       Test::rate);
   finding.variable = nonlocal ? "h" : "max(h,delta)";
-  finding.theory_order = path.order.value_or(1.0);
+  finding.theory_order = 1.0;
   for (const std::int64_t N : path.N) {
     const double count = static_cast<double>(N), delta = path.delta({scene.period() / count, count});
     const std::vector<double> x = subject.positions(N).front();
@@ -139,6 +140,19 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
   return {scheme, scheme.model == 1 ? 0.0 : scheme.mu.value_or(scene.max_relative_velocity())};
 }
 
+/// A path that all rows are put before.
+PathChoice read_column(const Table& table) {
+  for (const char* const key : {"expect", "order"}) {
+    const toml::node* const node = table.find(key);
+    if (node == nullptr) continue;
+    table.place(*node).fail(
+        fmt::format("a path of this kind of study has no {}; expectations stand in a table expect of "
+                    "their [[control]]",
+                    key));
+  }
+  return read_path(table);
+}
+
 Expectations read_expectations(const Table& table, const std::vector<Column>& columns) {
   Expectations expect;
   if (table.find("expect") == nullptr) return expect;
@@ -184,10 +198,10 @@ void read_controls(const Table& root, Study& study) {
   std::vector<Column> columns;
   const std::vector<Table> path_tables = root.array_of_tables("path");
   std::vector<PathChoice> paths;
-  for (const Table& table : path_tables) paths.push_back(read_path(table));
+  for (const Table& table : path_tables) paths.push_back(read_column(table));
   for (const PathChoice& path : paths) columns.push_back({path.name, {}});
   for (const Table& table : root.array_of_tables("consistency")) {
-    const PathChoice path = read_path(table);
+    const PathChoice path = read_column(table);
     columns.push_back({"consistency, " + path.name,
                        [=](const SchemeEntry& entry, const auto&) { return consistency(on_scene(entry), path); }});
   }
@@ -206,6 +220,13 @@ void read_controls(const Table& root, Study& study) {
                      }});
   columns.push_back(
       {"trajectories", [scene](const SchemeEntry& entry, const auto&) { return trajectories(entry, *scene); }});
+
+  std::set<std::string> names;
+  for (const Column& column : columns) {
+    if (!names.insert(column.name).second) {
+      root.place().fail(fmt::format("a second check named \"{}\"; the names of paths must differ", column.name));
+    }
+  }
 
   std::vector<Row> rows;
   for (const SchemeEntry& entry : read_schemes(root, *scene)) rows.push_back({entry, {}});

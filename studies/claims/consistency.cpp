@@ -21,7 +21,9 @@ constexpr std::array model2_estimates = {
     LemmaEstimate{"Lemma 3.4, D", "max |reach D_h|", true, false},
 };
 
-double variable(const LemmaEstimate& estimate, double h, double delta) { return estimate.nonlocal ? h : std::max(h, delta); }
+double variable(const LemmaEstimate& estimate, double h, double delta) {
+  return estimate.nonlocal ? h : std::max(h, delta);
+}
 
 /// What the statement says, and what is known to hold instead.
 std::string claim(const Subject& subject, const LemmaEstimate& estimate) {
@@ -35,15 +37,19 @@ double reach(const Particles& particles, std::ptrdiff_t j) {
   return std::max({particles.delta, x[0] - x[-particles.windows.left[j]], x[particles.windows.right[j]] - x[0]});
 }
 
-/// The constant C of error <= C h, or C max(h, delta): Taylor's formula with the moments of the weights, no fit.
-double constant(const Subject& subject, const LemmaEstimate& estimate, const Gaps& gap) {
-  const FieldBounds f = field_bounds(*subject.scene, subject.t());
+/// C of error <= C h, or of error <= C max(h, delta), at this horizon: Taylor's formula and the moments of the weights.
+/// Nothing is fitted. The largest C of all horizons, which is finite, is the constant of the lemma.
+double constant(const Subject& subject, const LemmaEstimate& estimate, const FieldBounds& f, const Gaps& gap,
+                double delta) {
   const double divergence = subject.scheme.nonlocal_divergence ? f.b_2 * f.u : 0.0;
   if (subject.scheme.model == 1) return 0.5 * (f.flux_2 + divergence);
   const double curvature = 0.5 * f.c_hat_2 * f.u + f.c_hat_1 * f.u_1 + f.c_hat * f.u_2 + 0.5 * divergence;
   if (!estimate.nonlocal) return 0.5 * (estimate.viscous ? f.u_2 : curvature);
-  const double least_N = gap.smallest / (gap.smallest + gap.largest);
-  return total_mass(subject.scheme.kernel) / least_N * (estimate.viscous ? 0.5 * f.u_3 : 1.5 * curvature);
+  const double by_way_of_pde = (estimate.viscous ? f.u_3 / 3.0 : curvature) * std::max(1.0, delta / gap.largest);
+  if (delta < gap.largest) return by_way_of_pde;
+  const double mass = total_mass(subject.scheme.kernel);
+  const double least_N = std::max(gap.smallest / (gap.smallest + gap.largest), 1.0 - mass * gap.largest / delta);
+  return std::min(by_way_of_pde, mass / least_N * (estimate.viscous ? 0.5 * f.u_3 : 1.5 * curvature));
 }
 
 /// The errors of an estimate at one horizon. Finding the sources' quadrature costs more than using it, so they are made
@@ -117,7 +123,8 @@ std::span<const LemmaEstimate> estimates(int model) {
   return model2_estimates;
 }
 
-double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x, double delta) {
+double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x,
+                      double delta) {
   return ErrorAt(subject, estimate, delta)(x);
 }
 
@@ -128,18 +135,19 @@ Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& 
   if (subject.scheme.model == 2 && estimate.nonlocal) {
     finding.remark = "C h holds whatever delta, so the printed second term is not needed";
   }
+  const FieldBounds fields = field_bounds(*subject.scene, subject.t());
   for (const std::int64_t N : sweep.N) {
-    Point point{.N = N, .value = 0.0, .upper = 0.0};
+    Point point{.N = N};
+    Gaps gap{0.0, HUGE_VAL};  // of all arrangements
     for (const std::vector<double>& x : subject.positions(N)) {
-      point.upper = std::max(point.upper, constant(subject, estimate, gaps(x, subject.scene->period())));
+      const Gaps one = gaps(x, subject.scene->period());
+      gap = {std::max(gap.largest, one.largest), std::min(gap.smallest, one.smallest)};
     }
     for (const double delta : sweep.deltas(N, subject.scene->period())) {
-      const Worst at = worst(subject, estimate, N, delta);
-      const double ratio = at.error / variable(estimate, at.h, delta);
-      if (!worse(ratio, point.value)) continue;
-      point.h = point.variable = at.h;
-      point.delta = delta;
-      point.value = ratio;
+      const double bound = constant(subject, estimate, fields, gap, delta);
+      const double ratio = worst(subject, estimate, N, delta).error / variable(estimate, gap.largest, delta);
+      if (!std::isnan(point.h) && !worse(ratio / bound, point.value / point.upper)) continue;
+      point = {N, gap.largest, delta, gap.largest, ratio, point.lower, bound};
     }
     finding.points.push_back(point);
   }

@@ -22,10 +22,12 @@ std::span<const LemmaEstimate> estimates(int model);
 
 /// What is left of the estimate at particles x: max over j of |operator - its limit|; of reach_j D_j itself for the
 /// viscous term against the PDE, whose limit is zero. A and D are told apart by mu, in which the operator is affine.
-double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x, double delta);
+double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x,
+                      double delta);
 
-/// Uniformity in delta: per N the largest error over the sweep's horizons, divided by h (by max(h, delta) against the
-/// PDE), is at most a constant that is derived from the fields of the scene, not fitted; see docs/equations.md.
+/// Uniformity in delta: whatever the horizon of the sweep, the error divided by h (by max(h, delta) against the PDE)
+/// is at most a constant that is derived from the fields of the scene, not fitted; see docs/equations.md. A point per
+/// N, at the horizon where the error comes closest to its bound.
 Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep);
 
 /// Errors along a path: they vanish with at least order 1, or with path.order if that is given.

@@ -202,6 +202,10 @@ void read_controls(const Table& root, Study& study) {
   for (const PathChoice& path : paths) columns.push_back({path.name, {}});
   for (const Table& table : root.array_of_tables("consistency")) {
     const PathChoice path = read_column(table);
+    for (const std::int64_t N : path.N) {
+      const double count = static_cast<double>(N), delta = path.delta({scene->period() / count, count});
+      check_horizon(*scene, N, delta, table.place(*table.find("delta")));
+    }
     columns.push_back({"consistency, " + path.name,
                        [=](const SchemeEntry& entry, const auto&) { return consistency(on_scene(entry), path); }});
   }

@@ -37,6 +37,28 @@ Judgement judge_bounds(const std::vector<Point>& points) {
   return judgement;
 }
 
+/// A bound on errors is no asymptote: they may fall faster, or stray below it. So the order in the limit, which the
+/// judgement is about, need not be known; the power law has to reach theory's order with an interval that could tell
+/// half an order.
+Verdict judge_rate(const Judgement& judgement, double theory_order) {
+  const auto& pairwise = judgement.pairwise;
+  const bool falling = std::all_of(pairwise.begin(), pairwise.end(), [](double order) { return order > 0.0; });
+  const bool reaches = judgement.fitted.high >= theory_order - order_tolerance && judgement.fitted.half_width() < 0.5;
+  switch (judgement.verdict) {
+    case Verdict::confirmed:
+    case Verdict::pre_asymptotic:
+    case Verdict::above:
+    case Verdict::floor:
+      return Verdict::holds;
+    case Verdict::below:
+      return reaches && falling ? Verdict::holds : Verdict::violated;
+    case Verdict::inconclusive:
+      return reaches && falling ? Verdict::holds : Verdict::inconclusive;
+    default:
+      return judgement.verdict;
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(Test test) {
@@ -74,26 +96,8 @@ void judge(Finding& finding) {
   }
   std::vector<Level> levels;
   for (const Point& point : finding.points) levels.push_back({point.variable, point.value});
-  Judgement& judgement = finding.judgement = judge(levels, finding.theory_order);
-  if (finding.test == Test::order) return;
-  switch (judgement.verdict) {
-    case Verdict::confirmed:
-    case Verdict::pre_asymptotic:
-    case Verdict::above:
-    case Verdict::floor:
-      judgement.verdict = Verdict::holds;
-      break;
-    case Verdict::below:
-      // Bounds are no asymptotes: errors may stray below them, as long as the interval, if it is not too wide to tell
-      // half an order, reaches theory's.
-      judgement.verdict =
-          judgement.high >= finding.theory_order - order_tolerance && judgement.high - judgement.low < 1.0
-              ? Verdict::holds
-              : Verdict::violated;
-      break;
-    default:
-      break;
-  }
+  finding.judgement = judge(levels, finding.theory_order);
+  if (finding.test == Test::rate) finding.judgement.verdict = judge_rate(finding.judgement, finding.theory_order);
 }
 
 }  // namespace acstudy

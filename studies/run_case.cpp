@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "studies/advance.hpp"
+#include "studies/control_choice.hpp"
 
 namespace acstudy {
 
@@ -40,7 +41,9 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t le
   double total = 0.0;
   do {
     try {
-      result = c.scene->standing() ? run_once<StandingParticles>(c, stop) : run_once<MovingParticles>(c, stop);
+      result = c.scene->standing()                           ? run_once<StandingParticles>(c, stop)
+               : c.scheme.control == misprinted_trajectories ? run_once<MisprintedParticles>(c, stop)
+                                                             : run_once<MovingParticles>(c, stop);
     } catch (const std::domain_error& error) {
       result = failed(error.what());
     } catch (const std::runtime_error& error) {

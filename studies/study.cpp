@@ -37,7 +37,8 @@ double Case::cfl() const { return scheme.model == 1 ? dt * scene->max_relative_v
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
   std::string text = scheme.model == 1 ? "Model I" : "Model II";
   if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
-  return fmt::format("{}, {}", text, scheme.kernel.label());
+  text += ", " + scheme.kernel.label();
+  return scheme.control.empty() ? text : fmt::format("{} ({})", scheme.control, text);
 }
 
 std::string Series::label() const { return scheme_label(scheme, cases.front().scene->standing()) + ", " + path; }

@@ -172,7 +172,7 @@ std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<cons
   return subjects;
 }
 
-Sweep read_sweep(const Table& table) {
+Sweep read_sweep(const Table& table, const Scene& scene) {
   table.allow({"N", "ratios", "horizons"});
   const auto lengths = [&](std::string_view key, std::string_view example) {
     std::vector<double> values;
@@ -186,7 +186,12 @@ Sweep read_sweep(const Table& table) {
     return values;
   };
   Sweep sweep{read_levels(table), lengths("ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
-  if (table.find("horizons") != nullptr) sweep.horizons = lengths("horizons", "horizons = [0.2]");
+  if (table.find("horizons") != nullptr) {
+    sweep.horizons = lengths("horizons", "horizons = [0.2]");
+    for (const double delta : sweep.horizons) {
+      check_horizon(scene, sweep.N.front(), delta, table.place(*table.find("horizons")));
+    }
+  }
   return sweep;
 }
 
@@ -241,10 +246,8 @@ SourceRule read_source_rule(const Table& root) {
       {{"gauss", SourceRule::gauss}, {"gsl", SourceRule::gsl}, {"boost", SourceRule::boost}});
 }
 
-Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
-               bool nonlocal_source, const Place& at) {
-  const Scene& scene = *study.scene;
-  const double count = static_cast<double>(N), h = scene.period() / count, bound = time.step({h, count});
+void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at) {
+  const double h = scene.period() / static_cast<double>(N);
   if (!std::isfinite(delta) || delta <= 0.0) {
     at.fail(
         fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must be positive and finite: write an expression "
@@ -257,6 +260,13 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
                     "particle would meet its own images",
                     delta, h, N, 0.5 * scene.period()));
   }
+}
+
+Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
+               bool nonlocal_source, const Place& at) {
+  const Scene& scene = *study.scene;
+  const double count = static_cast<double>(N), h = scene.period() / count, bound = time.step({h, count});
+  check_horizon(scene, N, delta, at);
   if (!std::isfinite(bound) || bound <= 0.0) {
     time.at_step.fail(fmt::format(
         "step = {:.6g} at h = {:.6g} (N = {}); a time step must be positive and finite: write an expression "

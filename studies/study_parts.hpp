@@ -32,8 +32,8 @@ std::vector<std::int64_t> read_levels(const Table& table);
 /// All of [[scheme]] on each arrangement of particles: uniform, jittered and, if particles move, moved.
 std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene);
 
-/// [sweep]: N, ratios and, optionally, horizons.
-Sweep read_sweep(const Table& table);
+/// [sweep]: N, ratios and, optionally, horizons, each below half the period.
+Sweep read_sweep(const Table& table, const Scene& scene);
 
 /// A refinement path: the curve delta(h) and the levels on it.
 struct PathChoice {
@@ -45,6 +45,9 @@ struct PathChoice {
   std::optional<double> order;  ///< in place of theory's
 };
 PathChoice read_path(const Table& table);
+
+/// Fails unless 0 < delta < period / 2.  @param at  the place to blame
+void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at);
 
 /// A verdict that a study may expect of an order.
 Verdict read_expected(const Table& table, const toml::node& node);

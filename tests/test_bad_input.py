@@ -14,6 +14,8 @@ STEP = '"h/4"'
 FLOW = '"2*atan2(sin(x/2)*exp(t), cos(x/2))"'
 SCHEME_TABLE = '[[scheme]]\nmodel = 1\ndivergence = "local"\nkernel = "inverse"\n'
 TIME_TABLE = '[time]\nintegrator = "forward-euler"\nstep = "h/4"\n'
+SWEEP = ('[study]\nname = "sweep"\nkind = "stability"\n\n[scene]\nuse = "lee-du-2019"\n\n' + SCHEME_TABLE +
+         '\n[sweep]\nN = [40]\nratios = [1]\n')
 PATH_TABLE = STUDY[STUDY.index("[[path]]"):]
 
 NAMES = "it may use h, N, pi, e and the usual functions"
@@ -242,6 +244,21 @@ STUDIES = {
     "negative step": (bad((STEP, '@"-h/4"')), f"step = -0.0981748 {COARSE}; {POSITIVE_STEP}"),
     "step that is not a number": (bad((STEP, '@"log(-h)"')), f"step = nan {COARSE}; {POSITIVE_STEP}"),
     "endless run": (bad((STEP, '@"1e-13"')), f"step = 1e-13 {COARSE} asks for 1e+13 steps; the most is 1e12"),
+
+    # Sweeps of other kinds of study
+    "negative ratio": (bad(("ratios = [1]", "ratios = [@-1]"), of=SWEEP),
+                       "ratios contains -1; every entry must be positive and finite: write "
+                       "ratios = [0.01, 0.5, 1, 4, 30]"),
+    "horizon of a sweep too large": (
+        bad(("ratios = [1]", "ratios = [1]\nhorizons = @[4]"), of=SWEEP),
+        "delta = 4 at h = 0.15708 (N = 40); a horizon must stay below half the period, 3.14159, or a particle would "
+        "meet its own images"),
+    "kernel of no scheme": (
+        bad(("ratios = [1]", 'ratios = [1]\n\n[printed]\nviolated = [@"inverse"]'), of=SWEEP),
+        'no [[scheme]] of Model II has the kernel "inverse"; name one of those as explain prints it'),
+    "path in a study without paths": (bad(("[sweep]", "[[@path]]\nname = 1\n\n[sweep]"), of=SWEEP),
+                                      'unknown key "path" in the study; known keys: study, scene, scheme, sweep, '
+                                      'printed'),
 
     # Scenes
     "zero period": (inline(('"2*pi"', "@0")), "period = 0; it must be positive and finite"),

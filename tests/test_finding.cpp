@@ -69,3 +69,23 @@ TEST_CASE("a finding whose values have theory's order is confirmed, and one that
   CHECK(finding.as_expected());
   CHECK(finding.alarm());
 }
+
+TEST_CASE("a bound on an order is met by theory's order, by a higher one and by scatter about it, not by a lower one") {
+  const auto rated = [](auto error, double theory) {
+    Finding finding{.test = Test::rate, .theory_order = theory, .promised = Verdict::holds, .expected = Verdict::holds};
+    for (const double h : {0.1, 0.05, 0.025, 0.0125}) finding.points.push_back({.variable = h, .value = error(h)});
+    judge(finding);
+    return finding.judgement.verdict;
+  };
+  CHECK(rated([](double h) { return h; }, 1.0) == Verdict::holds);
+  CHECK(rated([](double h) { return h * h; }, 1.0) == Verdict::holds);
+  CHECK(rated([](double h) { return h * (1.0 - 3.0 * h); }, 1.0) == Verdict::holds);
+  CHECK(rated([](double h) { return h * (1.0 + 0.05 * std::sin(1.0 / h)); }, 1.0) == Verdict::holds);
+  CHECK(rated([](double h) { return std::sqrt(h); }, 1.0) == Verdict::violated);
+  CHECK(rated([](double h) { return std::pow(h, 0.9); }, 1.0) == Verdict::violated);
+  CHECK(rated([](double h) { return h * std::log(1.0 / h); }, 1.0) == Verdict::violated);
+  CHECK(rated([](double h) { return h > 0.02 ? h : 0.05; }, 1.0) != Verdict::holds);
+  CHECK(rated([](double) { return 0.1; }, 1.0) == Verdict::stagnates);
+  CHECK(rated([](double h) { return 1.0 / h; }, 1.0) == Verdict::diverges);
+  CHECK(rated([](double h) { return h > 0.02 ? h : NAN; }, 1.0) == Verdict::unstable);
+}

@@ -137,7 +137,7 @@ Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& 
   }
   const FieldBounds fields = field_bounds(*subject.scene, subject.t());
   for (const std::int64_t N : sweep.N) {
-    Point point{.N = N, .value = 0.0, .upper = 1.0};
+    Point point{.N = N};
     Gaps gap{0.0, HUGE_VAL};  // of all arrangements
     for (const std::vector<double>& x : subject.positions(N)) {
       const Gaps one = gaps(x, subject.scene->period());
@@ -146,7 +146,7 @@ Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& 
     for (const double delta : sweep.deltas(N, subject.scene->period())) {
       const double bound = constant(subject, estimate, fields, gap, delta);
       const double ratio = worst(subject, estimate, N, delta).error / variable(estimate, gap.largest, delta);
-      if (!worse(ratio / bound, point.value / point.upper)) continue;
+      if (!std::isnan(point.h) && !worse(ratio / bound, point.value / point.upper)) continue;
       point = {N, gap.largest, delta, gap.largest, ratio, point.lower, bound};
     }
     finding.points.push_back(point);

@@ -48,6 +48,9 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
   const bool corrected = condition == StepCondition::corrected;
   const FieldBounds fields = field_bounds(*subject.scene, subject.t());
   const double growth = fields.c_hat_1 + fields.b_1;
+  // A control is stepped as the scheme that it is taken for.
+  SchemeChoice itself = subject.scheme;
+  itself.control.clear();
   Finding finding = subject.finding(
       std::string(subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3") + (corrected ? ", corrected" : ""),
       growth == 0.0 ? "maximum principle" : "norm <= 1 + dt (||c_hat'|| + ||b'||)", fmt::format("CFL {:g}", cfl),
@@ -63,7 +66,8 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
       Point worst{.N = N, .h = h, .delta = delta, .variable = delta / h, .upper = NAN};
       for (const std::vector<double>& x : subject.positions(N)) {
         PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
-        const double dt = cfl * largest_step(subject, placed, condition), norm = step_norm(placed, dt);
+        PlacedScheme right(itself, *subject.scene, subject.mu, x, delta);
+        const double dt = cfl * largest_step(subject, right, condition), norm = step_norm(placed, dt);
         const double bound = norm_bound(placed, dt, growth);
         if (std::isnan(worst.upper) || worse(norm - bound, worst.value - worst.upper)) {
           worst.value = norm;

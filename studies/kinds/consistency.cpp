@@ -9,9 +9,15 @@ namespace acstudy {
 void read_consistency(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "sweep", "path"});
   study.scene = read_scene(root.sub_table("scene"));
-  const Sweep sweep = read_sweep(root.sub_table("sweep"));
+  const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
   std::vector<PathChoice> paths;
-  for (const Table& table : root.array_of_tables("path")) paths.push_back(read_path(table));
+  for (const Table& table : root.array_of_tables("path")) {
+    const PathChoice& path = paths.emplace_back(read_path(table));
+    for (const std::int64_t N : path.N) {
+      const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
+      check_horizon(*study.scene, N, delta, table.place(*table.find("delta")));
+    }
+  }
 
   for (const Subject& subject : read_subjects(root, study.scene)) {
     for (const LemmaEstimate& estimate : estimates(subject.scheme.model)) {

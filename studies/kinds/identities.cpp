@@ -10,8 +10,7 @@ namespace acstudy {
 void read_identities(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "sweep"});
   study.scene = read_scene(root.sub_table("scene"));
-  const Table sweep_table = root.sub_table("sweep");
-  const Sweep sweep = read_sweep(sweep_table);
+  const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
   const auto add = [&](std::string name, std::function<Finding()> take) {
     study.measurements.push_back({std::move(name), [take = std::move(take)](const auto&) { return take(); }});
   };

@@ -19,7 +19,8 @@ void read_consistency(const Table& root, Study& study);
 void read_identities(const Table& root, Study& study);
 /// Exact max norms of a step. Lemmas 2.4 and 3.3.
 void read_stability(const Table& root, Study& study);
-
+/// Schemes, and schemes with a mistake, before every kind of check: which check notices which mistake.
+void read_controls(const Table& root, Study& study);
 /// Errors over the plane of horizon and spacing, against the local and the nonlocal solution: in which limits a scheme
 /// converges, and to what. Theorems 2.6 - 2.8, 3.5 - 3.7.
 void read_map(const Table& root, Study& study);
@@ -42,6 +43,7 @@ inline constexpr std::array kinds = {
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
     Kind{"identities", "what the weights satisfy, exactly or within bounds", read_identities},
     Kind{"stability", "max norm of a forward Euler step", read_stability},
+    Kind{"controls", "which check notices which deliberate mistake", read_controls},
     Kind{"map", "errors over the plane of horizon and spacing", read_map},
     Kind{"pollution", "parts of the finest errors that are not of the scheme in space", read_pollution},
     Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},

@@ -12,8 +12,7 @@ namespace acstudy {
 void read_stability(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "sweep", "printed"});
   study.scene = read_scene(root.sub_table("scene"));
-  const Table sweep_table = root.sub_table("sweep");
-  const Sweep sweep = read_sweep(sweep_table);
+  const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
   const std::vector<Subject> subjects = read_subjects(root, study.scene);
 
   // The kernels with which Lemma 3.3 as printed is expected to fail.

@@ -1,0 +1,291 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "studies/claims/identities.hpp"
+#include "studies/claims/stability.hpp"
+#include "studies/control_choice.hpp"
+#include "studies/kinds/kinds.hpp"
+#include "studies/operator.hpp"
+#include "studies/store.hpp"
+#include "studies/study_parts.hpp"
+#include "studies/theory.hpp"
+
+namespace acstudy {
+
+namespace {
+
+using Expectations = std::map<std::string, Verdict>;
+
+/// A row of the detection matrix: a scheme or a control, and what is expected of it where that is not what is promised.
+struct Row {
+  SchemeEntry entry;
+  Expectations expect;
+};
+
+/// A column: how a row is measured. Finding::subject, `check` and `expected` are set by the matrix.
+struct Column {
+  std::string name;
+  std::function<Finding(const SchemeEntry&, const std::vector<SeriesResult>&)> take;
+};
+
+/// Errors of runs along a path, of the series that run it.
+Finding along_path(const Series& series, const SeriesResult& result) {
+  Finding finding{.statement = series.theory.statement,
+                  .claim = fmt::format("order {:g} in {}", series.theory.order, series.theory.variable),
+                  .quantity = "max-norm error at T",
+                  .test = Test::order,
+                  .variable = series.theory.variable,
+                  .theory_order = series.theory.order,
+                  .promised = series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed};
+  for (std::size_t i = 0; i < series.cases.size(); ++i) {
+    const Case& c = series.cases[i];
+    finding.points.push_back({c.N, c.h, c.delta, series.variable(c.h, c.delta), result.results[i].error_linf});
+    if (finding.remark.empty()) finding.remark = result.results[i].failure;
+  }
+  return finding;
+}
+
+/// What the scheme, with its own source, leaves of its equation.
+Finding consistency(const Subject& subject, const PathChoice& path) {
+  const Scene& scene = *subject.scene;
+  const bool nonlocal = path.nonlocal_source;
+  Finding finding = subject.finding(
+      subject.scheme.model == 1 ? (nonlocal ? "Lemma 2.3" : "Lemma 2.5") : (nonlocal ? "Lemma 3.2" : "Lemma 3.4"),
+      nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {}, "max |rate + f - du/dt|",
+      Test::rate);
+  finding.variable = nonlocal ? "h" : "max(h,delta)";
+  finding.theory_order = 1.0;
+  for (const std::int64_t N : path.N) {
+    const double count = static_cast<double>(N), delta = path.delta({scene.period() / count, count});
+    const std::vector<double> x = subject.positions(N).front();
+    const double h = gaps(x, scene.period()).largest;
+    PlacedScheme placed(subject.scheme, scene, subject.mu, x, delta);
+    const auto source = make_source(subject.scheme, scene, subject.mu, nonlocal, delta);
+    finding.points.push_back(
+        {N, h, delta, nonlocal ? h : std::max(h, delta), max_norm(placed.truncation_error(*source, subject.t()))});
+  }
+  return finding;
+}
+
+/// The flow of the runs before the checks of a scene.
+Finding trajectories(const SchemeEntry& entry, const Scene& scene) {
+  Finding finding{.statement = "(2.7)",
+                  .claim = "x' = b(x) and x(0) = x_0 along trajectories, which do not cross",
+                  .quantity = "refusals of the flow by the checks of the scene",
+                  .test = Test::bounds,
+                  .variable = "",
+                  .promised = Verdict::holds};
+  SceneText text = scene.text();
+  if (entry.scheme.control == misprinted_trajectories) text.flow = misprinted_flow;
+  Point point{.value = 0.0, .lower = 0.0, .upper = 0.0};
+  try {
+    const Scene checked(text);
+  } catch (const SceneError& error) {
+    point.value = 1.0;
+    finding.remark = error.what();
+  }
+  finding.points.push_back(point);
+  return finding;
+}
+
+/// A mistake is noticed by some check, and nothing is noticed where there is none.
+Finding alarms(const std::string& control, const std::string& subject, double count) {
+  Finding finding{.statement = "detection",
+                  .claim = "no check raises an alarm",
+                  .subject = subject,
+                  .check = "alarms",
+                  .quantity = "checks that raise an alarm",
+                  .test = Test::bounds,
+                  .variable = "",
+                  .promised = Verdict::holds,
+                  .expected = Verdict::holds,
+                  .points = {{.value = count, .lower = 0.0, .upper = 0.0}}};
+  for (const NamedControl& known : named_controls) {
+    if (known.name != control) continue;
+    finding.claim = "some check raises an alarm";
+    finding.remark = known.mistake;
+    finding.points.front().lower = 1.0;
+    finding.points.front().upper = HUGE_VAL;
+  }
+  judge(finding);
+  return finding;
+}
+
+/// scheme = { model = 1, ... } of a [[control]] that is a mistake of this scheme.
+SchemeEntry read_control(const Table& table, const Scene& scene) {
+  const std::string name = table.text("name", "name = \"downwind\"");
+  const auto control = std::find_if(named_controls.begin(), named_controls.end(),
+                                    [&](const NamedControl& known) { return known.name == name; });
+  if (control == named_controls.end()) {
+    std::vector<std::string> known;
+    for (const NamedControl& one : named_controls) known.push_back("\"" + std::string(one.name) + "\"");
+    table.place(*table.find("name"))
+        .fail(fmt::format("name = \"{}\"; it must be one of {}", name, fmt::join(known, ", ")));
+  }
+  const Table scheme_table = table.sub_table("scheme");
+  SchemeChoice scheme = read_scheme(scheme_table, scene);
+  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model)) {
+    scheme_table.place().fail(fmt::format(
+        "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
+        name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
+  }
+  if (name == misprinted_trajectories && scene.text().b != "sin(x)") {
+    table.place().fail(fmt::format("{} are those of b = sin(x); use the scene \"lee-du-2019\"", name));
+  }
+  scheme.control = name;
+  return {scheme, scheme.model == 1 ? 0.0 : scheme.mu.value_or(scene.max_relative_velocity())};
+}
+
+/// A path that all rows are put before.
+PathChoice read_column(const Table& table) {
+  for (const char* const key : {"expect", "order"}) {
+    const toml::node* const node = table.find(key);
+    if (node == nullptr) continue;
+    table.place(*node).fail(
+        fmt::format("a path of this kind of study has no {}; expectations stand in a table expect of "
+                    "their [[control]]",
+                    key));
+  }
+  return read_path(table);
+}
+
+Expectations read_expectations(const Table& table, const std::vector<Column>& columns) {
+  Expectations expect;
+  if (table.find("expect") == nullptr) return expect;
+  const Table words = table.sub_table("expect");
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.push_back(column.name);
+  words.allow(names);
+  std::vector<std::pair<std::string, Verdict>> verdicts;
+  for (int v = 0; v <= static_cast<int>(Verdict::violated); ++v) {
+    verdicts.emplace_back(name_of(static_cast<Verdict>(v)), static_cast<Verdict>(v));
+  }
+  for (const Column& column : columns) {
+    const toml::node* const node = words.find(column.name);
+    if (node == nullptr) continue;
+    expect[column.name] = words.choice<Verdict>(column.name, *node, verdicts);
+  }
+  return expect;
+}
+
+}  // namespace
+
+void read_controls(const Table& root, Study& study) {
+  root.allow({"study", "scene", "time", "source", "path", "consistency", "scheme", "control"});
+  study.scene = read_scene(root.sub_table("scene"));
+  const Stepping time = read_time(root);
+  study.integrator = time.integrator;
+  study.step_text = time.step.text();
+  study.source_rule = read_source_rule(root);
+  const auto scene = study.scene;
+  const auto constant = std::make_shared<const Scene>(SceneText{.name = "",
+                                                                .period = "1",
+                                                                .T = "1",
+                                                                .c = "1",
+                                                                .b = std::nullopt,
+                                                                .u = "sin(2*pi*(x - t))",
+                                                                .flow = std::nullopt});
+  const auto on_scene = [scene](const SchemeEntry& entry) {
+    const Arrangement arrangement = scene->standing() ? Arrangement::jittered : Arrangement::moved;
+    return Subject{entry.scheme, entry.mu, scene, arrangement};
+  };
+  const Sweep sweep{{100, 200}, {0.1, 1.0, 2.5, 10.0}, {}};
+
+  std::vector<Column> columns;
+  const std::vector<Table> path_tables = root.array_of_tables("path");
+  std::vector<PathChoice> paths;
+  for (const Table& table : path_tables) paths.push_back(read_column(table));
+  for (const PathChoice& path : paths) columns.push_back({path.name, {}});
+  for (const Table& table : root.array_of_tables("consistency")) {
+    const PathChoice path = read_column(table);
+    for (const std::int64_t N : path.N) {
+      const double count = static_cast<double>(N), delta = path.delta({scene->period() / count, count});
+      check_horizon(*scene, N, delta, table.place(*table.find("delta")));
+    }
+    columns.push_back({"consistency, " + path.name,
+                       [=](const SchemeEntry& entry, const auto&) { return consistency(on_scene(entry), path); }});
+  }
+  columns.push_back({"nearest neighbors", [=](const SchemeEntry& entry, const auto&) {
+                       return nearest_neighbor_rows(on_scene(entry), sweep.N, 0.5);
+                     }});
+  columns.push_back({"first moment", [=](const SchemeEntry& entry, const auto&) {
+                       return first_moment_is_one(on_scene(entry), sweep);
+                     }});
+  columns.push_back({"step norm", [=](const SchemeEntry& entry, const auto&) {
+                       return step_is_bounded(on_scene(entry), sweep, StepCondition::corrected);
+                     }});
+  columns.push_back({"maximum principle", [=](const SchemeEntry& entry, const auto&) {
+                       const Subject subject{entry.scheme, 1.0, constant, Arrangement::jittered};
+                       return step_is_bounded(subject, sweep, StepCondition::corrected);
+                     }});
+  columns.push_back(
+      {"trajectories", [scene](const SchemeEntry& entry, const auto&) { return trajectories(entry, *scene); }});
+
+  std::set<std::string> names;
+  for (const Column& column : columns) {
+    if (!names.insert(column.name).second) {
+      root.place().fail(fmt::format("a second check named \"{}\"; the names of paths must differ", column.name));
+    }
+  }
+
+  std::vector<Row> rows;
+  for (const SchemeEntry& entry : read_schemes(root, *scene)) rows.push_back({entry, {}});
+  for (const Table& table : root.array_of_tables("control")) {
+    table.allow({"name", "scheme", "expect"});
+    rows.push_back({read_control(table, *scene), read_expectations(table, columns)});
+  }
+
+  for (const Row& row : rows) {
+    const std::string subject = scheme_label(row.entry.scheme, scene->standing());
+    using Cell = std::function<Finding(const std::vector<SeriesResult>&)>;
+    std::vector<Cell> cells;
+    for (std::size_t p = 0; p < columns.size(); ++p) {
+      Column column = columns[p];
+      if (p < paths.size()) {
+        const PathChoice& path = paths[p];
+        Series series{.scheme = row.entry.scheme,
+                      .path = path.name,
+                      .delta_text = path.delta.text(),
+                      .nonlocal_source = path.nonlocal_source,
+                      .theory = {},
+                      .expected = Verdict::confirmed,
+                      .cases = {}};
+        const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
+        for (const std::int64_t N : path.N) {
+          const double count = static_cast<double>(N), delta = path.delta({scene->period() / count, count});
+          series.cases.push_back(make_case(study, time, row.entry, N, delta, path.nonlocal_source, at_delta));
+        }
+        const Case& finest = series.cases.back();
+        series.theory =
+            theory_for(row.entry.scheme, scene->standing(), path.nonlocal_source,
+                       finest.delta == series.cases.front().delta && series.cases.size() > 1, finest.delta < finest.h);
+        column.take = [s = study.series.size()](const SchemeEntry&, const std::vector<SeriesResult>& results) {
+          return along_path(*results[s].series, results[s]);
+        };
+        study.series.push_back(std::move(series));
+      }
+      cells.push_back([=](const std::vector<SeriesResult>& results) {
+        Finding finding = column.take(row.entry, results);
+        finding.subject = subject;
+        finding.check = column.name;
+        const auto expected = row.expect.find(column.name);
+        finding.expected = expected == row.expect.end() ? finding.promised : expected->second;
+        judge(finding);
+        return finding;
+      });
+      study.measurements.push_back({subject + "; " + column.name, cells.back()});
+    }
+    study.measurements.push_back({subject + "; alarms", [=](const std::vector<SeriesResult>& results) {
+                                    const auto count = std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
+                                      return cell(results).alarm();
+                                    });
+                                    return alarms(row.entry.scheme.control, subject, static_cast<double>(count));
+                                  }});
+  }
+}
+
+}  // namespace acstudy

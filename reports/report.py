@@ -39,25 +39,25 @@ def main(arguments=None):
 
 
 def report(folder, files):
-    """Draws every figure of the result files and the page into `folder`; the path of the page."""
+    """Draws every figure of the result files and the pages into `folder`; the path of the first page."""
+    import claims
+    import drawing
     import figures
+    import look
     import page
     import results
 
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
     styles = figures.scheme_styles(studies)
-    drawn = []
-    for study in studies:
-        figure = figures.error_figure(study, styles)
-        if figure is not None:
-            _write_images(folder, study.name, figures.render(figure, study.title))
-            drawn.append(study.name)
-    cost = figures.cost_figure(studies, styles)
-    if cost is not None:
-        _write_images(folder, "cost", figures.render(cost, "Error against run time"))
+    drawings = {study.name: drawing.of_study(study, styles) for study in studies}
+    cost = figures.cost_drawing(studies, styles)
+    for drawn in (*(one for group in drawings.values() for one in group), *filter(None, [cost])):
+        for kind, content in look.render(drawn.figure, drawn.title).items():
+            _write(folder / f"{drawn.stem}.{kind}", content)
     index = folder / "index.html"
-    _write(index, page.html(studies, drawn, cost is not None).encode("utf-8"))
+    _write(index, page.html(studies, drawings, cost).encode("utf-8"))
+    _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
     return index
 
 
@@ -99,11 +99,6 @@ def _refuse_clashes(studies):
         if study.name in seen:
             raise UsageError(f'{study.file}: study = "{study.name}" is also in {seen[study.name]}; name one of them')
         seen[study.name] = study.file
-
-
-def _write_images(folder, stem, images):
-    for kind, content in images.items():
-        _write(folder / f"{stem}.{kind}", content)
 
 
 def _write(path, content):

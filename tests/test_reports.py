@@ -19,6 +19,7 @@ sys.path.insert(0, str(ROOT / "reports"))
 
 import axes
 import figures
+import look
 import names
 import page
 import report
@@ -87,7 +88,7 @@ class ReportTest(unittest.TestCase):
         return code, out.getvalue(), err.getvalue()
 
     def images(self, study):
-        return figures.render(figures.error_figure(study, figures.scheme_styles([study])), study.title)
+        return look.render(figures.error_figure(study, figures.scheme_styles([study])), study.title)
 
 
 class Reading(ReportTest):
@@ -163,7 +164,7 @@ class Page(ReportTest):
         departing = series(path="delta = h^2", verdict="below", as_expected=0, observed_order=0.5)
         control = series(path="delta = 0.2", verdict="stagnates", expected="stagnates")
         study = results.read_study(write(self.folder, "fig1", series(), departing, control))
-        html = page.html([study], [], cost=False)
+        html = page.html([study], {})
         self.assertIn("1 of 3 series not as expected", html)
         self.assertEqual(html.count('<tr class="departs">'), 1)
         self.assertEqual(html.count('<article class="departs">'), 1)
@@ -176,7 +177,7 @@ class Page(ReportTest):
         broken = series(error_linf=[0.0512, math.nan, math.inf, 0.00321], observed_order=math.nan,
                         observed_low=math.nan, observed_high=math.nan, verdict="unstable", expected="unstable",
                         work_pairs=np.array([1, 1000, 1234567, 10**12]))
-        html = page.html([results.read_study(write(self.folder, "fig1", broken))], ["fig1"], cost=False)
+        html = page.html([results.read_study(write(self.folder, "fig1", broken))], {})
         for text in ("5.120e-02", ">nan<", ">inf<", "1\u202f234\u202f567", "[–, –]", "Δ<var>t</var>"):
             self.assertIn(text, html)
 
@@ -208,13 +209,13 @@ class Figures(ReportTest):
         self.assertIsNotNone(figures.cost_figure([study], figures.scheme_styles([study])))
         alone = results.read_study(write(self.folder, "fig2", lost))
         self.assertIn("4 of 4 levels not finite", self.images(alone)["svg"].decode())
-        self.assertIn("nan", page.html([study], ["fig1"], cost=True))
+        self.assertIn("nan", page.html([study], {}))
 
     def test_a_study_without_series_has_no_figure(self):
         study = results.read_study(write(self.folder, "fig1"))
         self.assertIsNone(figures.error_figure(study, {}))
         self.assertIsNone(figures.cost_figure([study], {}))
-        self.assertIn("No series has been run", page.html([study], [], cost=False))
+        self.assertIn("No series has been run", page.html([study], {}))
 
     def test_series_run_by_several_studies_are_drawn_once(self):
         studies = [results.read_study(path) for path in (
@@ -223,7 +224,7 @@ class Figures(ReportTest):
         chosen = figures.cost_curves(studies)
         self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
                          [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
-        text = figures.render(figures.cost_figure(studies, figures.scheme_styles(studies)), "cost")["svg"].decode()
+        text = look.render(figures.cost_figure(studies, figures.scheme_styles(studies)), "cost")["svg"].decode()
         for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
                      "Model I, nonlocal divergence"):
             self.assertEqual(text.count(f">{name}<"), 1, name)

@@ -1,8 +1,13 @@
 """Which figures a study gets: a function per kind of study."""
 
+import control_figures
 import figures
+import map_figures
+import operator_figures
 
-_OF_KIND = {}
+_OF_KIND = {"consistency": operator_figures.consistency_drawings, "identities": operator_figures.identity_drawings,
+            "stability": operator_figures.stability_drawings, "controls": control_figures.drawings,
+            "map": map_figures.drawings}
 
 
 def of_study(study, styles):

@@ -99,6 +99,7 @@ class Points:
     value: np.ndarray
     lower: np.ndarray           # bounds of the value; infinite where there is none
     upper: np.ndarray
+    label: tuple = ()           # what each value is of, where that is no number; else empty
 
     def __len__(self):
         return len(self.value)
@@ -128,12 +129,12 @@ class Finding:
     alarm: bool         # the statement does not hold of the subject, expected or not
     reason: str
     points: Points
-    fit: dict           # further numbers of the file, name -> value: what a test of its own kind has fitted
+    fit: dict           # of a surface A h^p + B delta^q: A, B, p, p_low, ..., rms; empty for the other tests
 
     @property
     def control(self):
-        """Whether the statement must fail here, to show that the measurement can see it."""
-        return self.expected != self.promised
+        """Whether a failure is demanded here, to show that the measurement can see one."""
+        return self.expected != self.promised or self.promised not in ("confirmed", "pre-asymptotic", "holds")
 
 
 @dataclass(frozen=True)
@@ -215,20 +216,22 @@ def _series(group):
 
 
 def _finding(group):
-    fields = ("statement", "claim", "subject", "check", "quantity", "test", "promised", "expected", "verdict", "reason")
-    optional = {"variable_name": "variable", "remark": "remark"}
+    texts = ("statement", "claim", "subject", "check", "quantity", "test", "promised", "expected", "verdict", "reason")
     numbers = ("theory_order", "observed_order", "observed_low", "observed_high", "extrapolated_order")
-    flags = ("as_expected", "alarm")
-    known = {*fields, *optional, *numbers, *flags, "also_expected"}
+    points = _columns(group, Points, {"N"}, without={"label"})
+    labels = tuple(_text(group, "labels", "").splitlines())
+    if labels and len(labels) != len(points["N"]):
+        raise ValueError(f"{group.name}: {len(labels)} labels, but {len(points['N'])} points")
     return Finding(
-        **{name: _text(group, name) for name in fields},
-        **{name: _text(group, key, "") for key, name in optional.items()},
-        **{name: _number(group, name, math.nan) for name in numbers},
-        **{name: bool(_number(group, name)) for name in flags},
+        **{name: _text(group, name) for name in texts},
+        **{name: _number(group, name) for name in numbers},
+        **{name: bool(_number(group, name)) for name in ("as_expected", "alarm")},
+        variable=_text(group, "variable_name"),
+        remark=_text(group, "remark", ""),
         also_expected=tuple(_text(group, "also_expected", "").split()),
-        points=Points(**_columns(group, Points, {"N"})),
-        fit={name: float(np.asarray(value).item()) for name, value in sorted(group.attrs.items())
-             if name not in known and np.asarray(value).dtype.kind in "fiu" and np.asarray(value).size == 1})
+        points=Points(**points, label=labels),
+        fit={name.removeprefix("surface_"): _number(group, name) for name in sorted(group.attrs)
+             if name.startswith("surface_")})
 
 
 def _cases(group):
@@ -236,10 +239,10 @@ def _cases(group):
     return Cases(**_columns(group, Cases, integers, between={"pairwise"}))
 
 
-def _columns(group, record, integers, between=frozenset()):
+def _columns(group, record, integers, between=frozenset(), without=frozenset()):
     """The data sets named as the fields of `record`, all as long as N; one shorter those `between` two entries."""
     arrays = {}
-    for name in record.__dataclass_fields__:
+    for name in (name for name in record.__dataclass_fields__ if name not in without):
         if name not in group:
             raise KeyError(f"{group.name}: no dataset {name}")
         values = np.atleast_1d(group[name][()])

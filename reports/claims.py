@@ -20,14 +20,17 @@ def html(studies, drawings):
     """The page as text. `drawings`: {name of a study: its drawings}."""
     of_paper, further = findings.ledger(studies)
     every = [entry for statement in (*of_paper, *further) for entry in statement.entries]
-    controls = [finding for study in studies if study.kind == "controls" for finding in study.findings]
+    checked = [study for study in studies if study.kind in findings.OF_MEASUREMENT and study.findings]
+    controls = [finding for study in checked for finding in study.findings]
     body = [markup.outcome({"results": sum(not result.as_expected for result in (*every, *controls))},
                            {"results": len(every) + len(controls)})]
     for heading, statements in (("Statements of the paper", of_paper), ("Further findings", further)):
         if statements:
             rows = "".join(_row(statement, drawings) for statement in statements)
             body.append(f"<section>\n<h2>{heading}</h2>\n{markup.table(COLUMNS, rows, heading)}</section>\n")
-    body += [_caught(study) for study in studies if study.kind == "controls"]
+    if checked:
+        body.append(f"<section>\n<h2>What the measurement itself is held to</h2>\n{''.join(map(_checked, checked))}"
+                    "</section>\n")
     if every:
         body.append('<section>\n<h2>Every finding</h2>\n')
         body += [_every(statement) for statement in (*of_paper, *further)]
@@ -114,13 +117,27 @@ def _as_expected(entry):
     return said + ' <span class="note">negative control</span>' if entry.control else said
 
 
-def _caught(study):
-    quiet = [finding for finding in study.findings if not finding.as_expected]
-    wrong = {finding.subject for finding in study.findings if finding.alarm}
-    text = (f"{_number(len(wrong), 'wrong scheme')} raise an alarm in at least one check; "
-            f"{len(quiet)} of {len(study.findings)} cells are not as expected.")
-    return (f'<section>\n<h2>Wrong schemes</h2>\n<p>{text} <a href="index.html#{study.name}">{escape(study.title)}</a>'
-            "</p>\n</section>\n")
+def _checked(study):
+    right = sum(finding.as_expected for finding in study.findings)
+    if study.kind == "corpus":
+        text = f"{right} of {_number(len(study.findings), 'synthetic series')} of known order get the right verdict."
+    else:
+        wrong = {finding.subject for finding in study.findings if finding.control}
+        accused = {finding.subject for finding in study.findings if finding.alarm}
+        text = (f"{len(accused & wrong)} of {_number(len(wrong), 'wrong scheme')} and {len(accused - wrong)} true ones "
+                f"raise an alarm; {right} of {len(study.findings)} cells are as expected.")
+    return f'<p><a href="index.html#{study.name}">{escape(study.title)}</a>: {text}</p>\n'
+
+
+def corpus_table(study):
+    """A row per synthetic series: what is right, and what it got."""
+    rows = "".join(
+        f'<tr{markup.departs(finding)}><th scope="row">{escape(finding.subject)}</th>'
+        f'<td class="said">{escape(finding.claim)}</td><td class="number">{finding.theory_order:g}</td>'
+        f"<td>{escape(' or '.join((finding.expected, *finding.also_expected)))}</td>"
+        f"<td>{markup.badge(finding)}</td><td>{'yes' if finding.as_expected else '<strong>no</strong>'}</td></tr>\n"
+        for finding in study.findings)
+    return markup.table(("series", "why", "theory's order", "right verdict", "given verdict", "right"), rows, study.title)
 
 
 def _anchor(statement):
@@ -128,4 +145,4 @@ def _anchor(statement):
 
 
 def _number(n, noun):
-    return f"{n} {noun}" + ("" if n == 1 else "s")
+    return f"{n} {noun}" + ("" if n == 1 or noun.endswith("s") else "s")

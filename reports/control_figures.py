@@ -47,7 +47,7 @@ def matrix(found):
         tall = [ROW * max(1, 0.62 * (label.count("\n") + 1)) for label in labels]
         true = sum(subject not in wrong for subject in subjects)
         gap = 0.12 if 0 < true < len(subjects) else 0.0
-        head = HEAD_ROOM + 0.058 * max(map(len, checks)) + 0.1
+        head = HEAD_ROOM + 0.051 * max(map(len, checks)) + 0.1
         height = sum(tall) + gap
         figure = blank(head + height + FOOT)
         panel = add_axes(figure, left, FOOT, cell * len(checks), height)

@@ -16,6 +16,8 @@ from results import CONVERGENCE
 PAPER = ("(2.3)", "Remark 2.1", "Remark 2.2", "Lemma 2.3", "Lemma 2.4", "Lemma 2.5", "Theorem 2.6", "Theorem 2.7",
          "Theorem 2.8", "Lemma 3.1", "(3.4)", "(3.5)", "Lemma 3.2", "Lemma 3.3", "Lemma 3.4", "Theorem 3.5",
          "Theorem 3.6", "Theorem 3.7")
+# Kinds of study that examine the checks and the verdicts themselves.
+OF_MEASUREMENT = ("controls", "corpus")
 # From best to worst, where each is as expected.
 _SEVERITY = ("holds", "confirmed", "pre-asymptotic", "floor", "inconclusive")
 
@@ -71,11 +73,11 @@ class Statement:
 def ledger(studies):
     """(statements of the paper in its order, further statements in order of appearance).
 
-    Findings on wrong schemes speak of the measurement, not of theory: they are no evidence for a statement.
+    Findings on wrong schemes and on synthetic series speak of the measurement, not of theory.
     """
     found = {}
     for study in studies:
-        if study.kind != "controls":
+        if study.kind not in OF_MEASUREMENT:
             for entry in entries(study):
                 found.setdefault(entry.statement, []).append(entry)
     statements = [Statement(name, tuple(group)) for name, group in found.items()]

@@ -59,16 +59,20 @@ def map_figure(study, planes):
         schemes = list(dict.fromkeys(scheme for scheme, _ in planes))
         targets = [target for target in TARGETS if any(source == target for _, source in planes)]
         labels = names.scheme_names(schemes)
-        left, right, gap, above, between, foot = 0.72, 0.95, 0.14, 1.1, 0.85, 0.9
+        left, right, gap, head, foot = 0.85, 0.95, 0.14, 0.5, 0.9
+        titles = {(scheme, target): _fit_text(study, scheme, target) for scheme, target in planes}
+        spaces = [0.3 + (0.38 if any(titles.get((scheme, target)) for scheme in schemes) else 0.0)
+                  for target in targets]
         width = min(3.0, (WIDTH - left - right - (len(schemes) - 1) * gap) / len(schemes))
         tall = 1.15 * width
-        figure = blank(above + len(targets) * tall + (len(targets) - 1) * between + foot)
+        height = len(targets) * (tall + 0.18) + sum(spaces) - 0.18
+        figure = blank(head + height + foot)
         total = figure.get_figheight()
         levels = _levels([error for *_, error in planes.values()])
         colors = matplotlib.colormaps["cividis"]
         norm = BoundaryNorm(levels, colors.N)
         for row, target in enumerate(targets):
-            bottom = total - above - (row + 1) * tall - row * between
+            bottom = total - head - (row + 1) * tall - row * 0.18 - sum(spaces[:row + 1])
             for column, scheme in enumerate(schemes):
                 if (scheme, target) not in planes:
                     continue
@@ -79,20 +83,19 @@ def map_figure(study, planes):
                 axes.set_log_limits(panel, (h[0], h[-1]), (delta[0], delta[-1]), (width, tall))
                 panel.tick_params(which="both", direction="out", labelleft=column == 0,
                                   labelbottom=row == len(targets) - 1)
-                panel.set_title(_fit_text(study, scheme, target), fontsize=9, pad=4)
+                panel.set_title(titles[scheme, target], fontsize=9, pad=4)
                 if row == 0:
                     panel.annotate(textwrap.fill(labels[scheme], max(14, int(width / 0.078))), (0.5, 1),
-                                   xycoords="axes fraction", xytext=(0, 42), textcoords="offset points", ha="center",
+                                   xycoords="axes fraction", xytext=(0, 72 * spaces[0]), textcoords="offset points", ha="center",
                                    va="bottom", fontsize=11.5, linespacing=1.0)
                 if row == len(targets) - 1:
                     panel.set_xlabel("$h$")
                 if column == 0:
                     panel.set_ylabel(r"$\delta$")
-                    panel.annotate(TARGETS[target], (0, 1), xycoords="axes fraction", xytext=(0, 27),
+                    panel.annotate(TARGETS[target], (0, 1), xycoords="axes fraction", xytext=(0, 72 * spaces[row] - 17),
                                    textcoords="offset points", va="bottom", fontsize=11.5)
-        height = len(targets) * tall + (len(targets) - 1) * between
         bar = figure.colorbar(ScalarMappable(norm, colors), cax=add_axes(
-            figure, left + len(schemes) * (width + gap), foot, 0.16, height), spacing="proportional")
+            figure, left + len(schemes) * (width + gap), foot, 0.16, height - spaces[0]), spacing="proportional")
         ticks = [level for level in levels if abs(math.log10(level) - round(math.log10(level))) < 1e-6] or levels[::3]
         bar.set_ticks(ticks, labels=[axes._tick_text(tick, [1e-9]) for tick in ticks])
         bar.minorticks_off()
@@ -171,7 +174,7 @@ def cuts_figure(series, planes):
             axes.set_log_limits(panel, limits, bounds if panel is errors else (0.1, 1.0), (width, tall))
             panel.tick_params(which="both", top=True, right=True)
             panel.set_xlabel(r"$\delta$")
-        orders.set(yscale="linear", ylim=(-0.6, 2.6))
+        orders.set(yscale="linear", ylim=(-0.3, 2.3))
         orders.axhline(1.0, color=GRAY, linewidth=0.8)
         axes.draw_references(errors, lines, (width, tall), GRAY)
         orders.set_ylabel("order in $h$ at this horizon")

@@ -68,6 +68,7 @@ def curves_figure(found):
                 for (x, y, _), finding in zip(_bounds(cell), (one for one in cell if _bounded(one))):
                     panel.plot(x, y, color=styles[finding.subject]["color"], linewidth=0.7, linestyle=(0, (1, 1.5)))
                 axes.set_log_limits(panel, limits, bounds, (width, tall))
+                panel.minorticks_off()      # they would take half of the drawing time
                 axes.draw_references(panel, next(lines), (width, tall), GRAY)
                 panel.tick_params(which="both", top=True, right=True, labelleft=first)
                 panel.set_xlabel(_variable(cell[0].variable), labelpad=1)
@@ -119,8 +120,8 @@ def identity_drawings(study):
         drawings.append(Drawing(
             study.name, study.title, dots_figure(bounded),
             f"Dot plot of {study.title}: the largest value of every finding relative to its bound. Values: table below.",
-            "A dot per finding: the largest |value| relative to its bound, over all its particles and horizons; at the "
-            "left edge: exactly zero. A negative control (open) belongs to the right of the line, all others to the "
+            "A dot per finding: the largest |value| relative to its bound, over all its particles and horizons; between "
+            "two bounds, the distance to their middle. At the right edge: 1000 times the bound or more. A negative control (open) belongs to the right of the line, all others to the "
             "left. Right: the largest |value| of the row."))
     curves = [finding for finding in study.findings if finding.test != "bounds" and _curve(finding) is not None]
     if curves:
@@ -142,10 +143,10 @@ def dots_figure(found):
         floor, ceiling = -6.0, 1.0
         ratios = [ratio for ratio, _ in map(_relative, found) if ratio > 0 and math.isfinite(ratio)]
         if ratios:
-            floor = max(-18.0, min(-2.0, math.floor(math.log10(min(ratios)))))
-            ceiling = max(1.0, math.log10(max(ratios)) + 0.5)
-        edge = floor - 0.4
-        row, head, left, right, foot, above = 0.19, 0.3, 3.1, 0.95, 0.85, 0.1
+            floor = max(-6.0, min(-2.0, math.floor(math.log10(min(ratios)))))
+            ceiling = min(3.0, max(1.0, math.log10(max(ratios)) + 0.2))
+        edge = floor - 0.12 * (ceiling - floor)
+        row, head, left, right, foot, above = 0.19, 0.3, 3.1, 0.95, 0.85, 0.3
         blocks = {}
         for statement, quantity, subject in groups:
             blocks.setdefault((statement, quantity), []).append(subject)
@@ -168,11 +169,13 @@ def dots_figure(found):
                                textcoords="offset points", fontsize=9, annotation_clip=False, color=GRAY)
                 y += row
         panel.axvline(0, color="black", linewidth=1.0)
-        panel.annotate("bound", (0, height), xytext=(3, 3), textcoords="offset points", fontsize=9, va="bottom")
+        panel.annotate("bound", (0, 0), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=10)
         stride = max(1, round((ceiling - floor) / 8))
-        ticks = [edge, *range(math.ceil(floor), math.floor(ceiling) + 1, stride)]
-        panel.set_xticks(ticks, ["0", *(f"$10^{{{tick}}}$" for tick in ticks[1:])])
+        ticks = [edge, *range(-stride * int(-floor / stride), math.floor(ceiling) + 1, stride)]
+        panel.set_xticks(ticks, ["less", *(f"$10^{{{tick}}}$" for tick in ticks[1:])])
         panel.set_xlabel("largest |value| / bound")
+        for side in ("left", "right", "top"):
+            panel.spines[side].set_visible(False)
         keys = [Line2D([], [], linestyle="none", marker=MARKERS[i % len(MARKERS)], color=COLORS[i % len(COLORS)])
                 for i in range(len(arrangements))]
         figure.legend(keys, arrangements, loc="lower left", ncol=6, columnspacing=1.6,
@@ -193,23 +196,29 @@ def _dots(panel, found, arrangements, y, edge):
         ratio, _ = _relative(finding)
         i = arrangements.index(_arrangement(finding))
         color = COLORS[i % len(COLORS)] if finding.as_expected else DEPARTING
-        panel.plot(edge if ratio == 0 else min(math.log10(ratio), panel.get_xlim()[1]) if ratio < math.inf else
-                   panel.get_xlim()[1], y, linestyle="none", marker=MARKERS[i % len(MARKERS)], markersize=4.5,
+        low, high = 10 ** edge, 10 ** panel.get_xlim()[1]
+        panel.plot(math.log10(min(max(ratio, low), high)), y, linestyle="none", marker=MARKERS[i % len(MARKERS)], markersize=4.5,
                    color=color, markerfacecolor="none" if finding.control else color, alpha=0.85, clip_on=False)
 
 
 def _relative(finding):
-    """(largest |value| / bound, |value| there); None if no point has a positive finite bound."""
+    """(largest deviation / allowed one, deviation there) of a bounded finding; None if no point allows any.
+
+    Between two bounds the deviation is that from their middle, else the size of the value.
+    """
     points = finding.points
     if finding.test != "bounds" or not len(points):
         return None
-    bound = np.where(points.value >= 0, points.upper, -points.lower)
-    usable = np.isfinite(bound) & (bound > 0)
+    both = np.isfinite(points.lower) & np.isfinite(points.upper)
+    middle = np.where(both, (np.where(both, points.lower, 0) + np.where(both, points.upper, 0)) / 2, 0.0)
+    deviation = np.abs(points.value - middle)
+    allowed = np.where(points.value >= middle, points.upper - middle, middle - points.lower)
+    usable = np.isfinite(allowed) & (allowed > 0)
     if not usable.any():
         return None
-    ratio = np.where(np.isfinite(points.value), np.abs(points.value), math.inf)[usable] / bound[usable]
+    ratio = np.where(np.isfinite(deviation), deviation, math.inf)[usable] / allowed[usable]
     i = int(np.argmax(ratio))
-    return float(ratio[i]), float(np.abs(points.value[usable])[i])
+    return float(ratio[i]), float(deviation[usable][i])
 
 
 # --------------------------------------------------------------------------------------------------------- stability
@@ -239,31 +248,36 @@ def growth_figure(found):
         curves = {id(finding): _growth(finding) for finding in found}
         values = np.concatenate([y[np.isfinite(y)] for _, y in curves.values()])
         x_all = np.concatenate([x for x, _ in curves.values()])
+        lowest = {(max(i for i, row in enumerate(rows) if any((one.statement, _arrangement(one)) == (row, column)
+                                                              for one in found)), j) for j, column in enumerate(columns)}
         high = max(2.0, values.max(initial=1.0))
         low = min(-0.1, max(-10.0, values.min(initial=0.0)))
         for i, row in enumerate(rows):
             bottom = figure.get_figheight() - above - (i + 1) * tall - i * between
             for j, column in enumerate(columns):
+                group = [one for one in found if (one.statement, _arrangement(one)) == (row, column)]
+                if not group:
+                    continue
                 panel = add_axes(figure, LEFT + j * (width + GAP), bottom, width, tall, xscale="log")
-                panel.set_yscale("symlog", linthresh=1.0, linscale=0.8)
                 axes.set_log_limits(panel, axes.padded(x_all), (0.1, 1.0), (width, tall))
                 panel.set_yscale("symlog", linthresh=1.0, linscale=0.8)
                 panel.set_ylim(low * 1.2, high * 1.5)
                 decades = range(0, math.ceil(math.log10(high)) + 1, max(1, math.ceil(math.log10(high) / 4)))
                 panel.set_yticks([0.0, *(10.0 ** k for k in decades)],
                                  ["0", *("1" if k == 0 else f"$10^{{{k}}}$" for k in decades)])
+                panel.minorticks_off()
                 panel.axhline(1.0, color="black", linewidth=1.0)
-                for finding in (one for one in found if (one.statement, _arrangement(one)) == (row, column)):
+                for finding in group:
                     style = dict(styles[finding.subject])
                     if finding.control:
                         style.update(linestyle=DASHES[1], alpha=0.4)
                     panel.plot(*curves[id(finding)], **style)
                     if not finding.as_expected:
                         panel.plot(*curves[id(finding)], color=DEPARTING, linewidth=4, alpha=0.35, zorder=1)
-                panel.tick_params(which="both", top=True, right=True, labelleft=j == 0, labelbottom=i == len(rows) - 1)
-                if i == len(rows) - 1:
+                panel.tick_params(which="both", top=True, right=True, labelleft=j == 0, labelbottom=(i, j) in lowest)
+                if (i, j) in lowest:
                     panel.set_xlabel(_variable(found[0].variable))
-                if i == 0:
+                if row == next(one.statement for one in found if _arrangement(one) == column):
                     panel.annotate(column, (0.5, 1), xycoords="axes fraction", xytext=(0, 20),
                                    textcoords="offset points", ha="center", va="bottom", fontsize=12)
                 if j == 0:

@@ -96,9 +96,11 @@ def _findings(study, drawings):
     departing = [entry for entry in every if not entry.as_expected]
     parts = [_heading(study), markup.outcome({"findings": len(departing)}, {"findings": len(every)})]
     parts += [markup.figure(drawing) for drawing in drawings]
-    if departing:
+    if departing and study.kind != "corpus":
         parts.append(claims.entry_table(departing, f"{study.title}: not as expected"))
-    if every:
+    if study.kind == "corpus":
+        parts.append(claims.corpus_table(study))
+    elif every:
         parts.append(f"<details><summary>Every finding</summary>\n{claims.entry_table(every, study.title)}</details>\n")
     return "".join(parts) + _origin(study)
 

@@ -134,7 +134,7 @@ class Finding:
     @property
     def control(self):
         """Whether a failure is demanded here, to show that the measurement can see one."""
-        return self.expected != self.promised or self.promised not in ("confirmed", "pre-asymptotic", "holds")
+        return self.expected != self.promised or self.promised in ("violated", "stagnates")
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release $(CMAKE_ARGS)
 # its own number of jobs, not that of the make which calls it
 compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
 
-.PHONY: help studies test check bench build format format-check clean compiled compiled-tests drawable
+.PHONY: help studies test check mutants bench build format format-check clean compiled compiled-tests drawable
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -38,6 +38,11 @@ test:  ## builds and runs every test
 check: build  ## the gates: exit 1 if any verdict departs from what its study expects
 	@$(acstudy) run studies/*.toml --out "$(OUT)" --jobs $(JOBS) || [ $$? -eq 1 ]
 	@$(acstudy) check "$(OUT)"/*.json
+
+mutants:  ## tests the tests: each mistake planted in a copy of the sources has to be caught (some 20 minutes)
+	$(setup) build test
+	@$(MAKE) --no-print-directory drawable
+	@scripts/mutants.py --out "$(OUT)/mutants" --jobs $(JOBS)
 
 bench: build  ## error against run time with one case at a time, so that none disturbs another
 	@$(acstudy) run studies/*.toml --out "$(OUT)/bench" --jobs 1 --repeats 5 --fresh

@@ -9,13 +9,10 @@
 #include <string_view>
 #include <vector>
 
-namespace acstudy {
+#include "reports/fits.hpp"
+#include "reports/window.hpp"
 
-/// One level of a refinement: the variable of theory (h, or max(h, delta)) and the error there.
-struct Level {
-  double variable;
-  double error;
-};
+namespace acstudy {
 
 enum class Verdict {
   confirmed,       ///< the order is theory's
@@ -26,7 +23,7 @@ enum class Verdict {
   floor,           ///< the error stops falling at round-off
   diverges,        ///< the error grows under refinement
   unstable,        ///< an error is not finite, or grows exponentially under refinement
-  inconclusive,    ///< too few levels, no error to speak of, or too wide an interval
+  inconclusive,    ///< the levels do not settle the question; the reason says why
   holds,           ///< a bound or identity is met: not of an order
   violated,        ///< it is not
 };
@@ -34,30 +31,49 @@ enum class Verdict {
 std::string_view name_of(Verdict verdict);
 std::optional<Verdict> verdict_from(std::string_view name);
 
-/// An order of convergence with its evidence. Orders that could not be estimated are NaN.
-struct Judgement {
-  double order;                  ///< least-squares slope of log(error) over log(variable), all levels
-  double low, high;              ///< its 95 % interval (Student t, levels - 2 degrees of freedom)
-  double extrapolated;           ///< p of error = C v^p (1 + D v), from four levels on
-  std::vector<double> pairwise;  ///< order between each level and the next finer one
-  Verdict verdict;
+/// An order of convergence with its evidence; NaN where the levels allow no estimate.
+///
+/// The order with its interval is the one that the error has in the limit: that of `corrected` from four levels in the
+/// window on, that of `fitted` for three. An interval that takes no correction into account misses the order of most
+/// series that have one; where there is none the price is width.
+struct Judgement : Estimate {
+  double extrapolated = not_estimated;  ///< order of `corrected`
+  std::vector<double> pairwise;         ///< order between each level and the next finer one, all levels
+  Verdict verdict = Verdict::inconclusive;
   std::string reason;  ///< one sentence: the evidence
+
+  Window window = {0, 0};  ///< the levels that the fits below use
+  PowerLaw fitted;
+  CorrectedLaw corrected;
+  FlooredLaw floored;
+  LeaveOneOut leave_one_out;  ///< of `fitted`; its level is an index into all levels
 };
 
 /// How far an observed order may lie from theory's and still agree with it.
 inline constexpr double order_tolerance = 0.05;
 /// The same for an extrapolated order, which three parameters fitted to few levels leave less sharp.
 inline constexpr double extrapolation_tolerance = 0.1;
+/// A power law whose order has a wider interval than this, on either side, confirms nothing.
+inline constexpr double widest_half_width = 0.15;
+
+struct JudgeOptions {
+  double scale = 1.0;  ///< size of the solution; round-off is 1e-12 times this
+};
 
 /// Judges errors under refinement against theory's order.
 ///
-/// Confirmed means: the fitted order and the last pairwise order lie within `order_tolerance` of theory's.
-/// Pre-asymptotic means: they do not yet, but each pairwise order is closer to theory's than the one before, and the
-/// extrapolated order lies within `extrapolation_tolerance`. Both bounds are two-sided. Nothing else passes: a level
-/// that is not finite, zero or negative, a growing error or fewer than three levels have verdicts of their own.
+/// Confirmed: order of the power law and last pairwise order lie within `order_tolerance` of theory's, the latter also
+/// where the scatter of the levels explains its distance; no level carries the result alone, and the corrected law's
+/// interval does not contradict.
+/// Pre-asymptotic: not yet, but the pairwise orders move toward theory's, by a correction v^q with q >= 0.4, and the
+/// corrected law's order lies within `extrapolation_tolerance` of it, or theory's order with such a correction fits as
+/// well. Slower drifts, such as that of h log(1/h), never pass.
+/// All bounds are two-sided, and nothing else passes.
 ///
-/// @param levels        coarse to fine; the actual variable of each level, so any refinement ratio is right
-/// @param theory_order  0 where theory says that the error does not vanish
+/// @param levels        coarse to fine; anything else, like an error that is not finite or negative, has its verdict
+/// @param theory_order  0 where theory says that the error settles at a positive value; NaN if there is no theory:
+///                      then the verdict is what the levels alone show
+Judgement judge(std::span<const Level> levels, double theory_order, const JudgeOptions& options);
 Judgement judge(std::span<const Level> levels, double theory_order);
 
 /// True if the verdict is what a study expects; "confirmed" is met by `pre_asymptotic` too, since both say that

@@ -135,8 +135,8 @@ def _series(series, label):
         rows.append("<tr>" + "".join(f'<td class="number">{cell}</td>' for cell in cells) + "</tr>\n")
     observed = (f"order {names.order(series.observed_order)} "
                 f"[{names.order(series.observed_low)}, {names.order(series.observed_high)}]")
-    if math.isfinite(series.extrapolated_order):
-        observed += f", extrapolated {names.order(series.extrapolated_order)}"
+    if math.isfinite(series.fitted_order):
+        observed += f", by a power law alone {names.order(series.fitted_order)}"
     departs = "" if series.as_expected else f' <strong class="warning">expected {escape(series.expected)}</strong>'
     details = [f"{series.scheme.kernel} kernel", f"{series.source} source", series.integrator,
                f"step at most {series.step_text}"]

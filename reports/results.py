@@ -82,6 +82,13 @@ class Series:
     observed_low: float
     observed_high: float
     extrapolated_order: float
+    fitted_order: float     # of the power law alone, without a correction
+    fitted_low: float
+    fitted_high: float
+    window: tuple           # first and last level that the fits use, counted from 1
+    leave_one_out: float    # largest change of the fitted order if one level is left out
+    leave_one_out_level: float
+    floor: float            # F of error = C v^p + F
     verdict: str
     expected: str
     as_expected: bool
@@ -210,9 +217,15 @@ def _series(group):
     texts = ("path", "source", "delta_text", "step_text", "integrator", "theory_variable", "theory_statement",
              "verdict", "expected", "reason")
     numbers = ("theory_order", "observed_order", "observed_low", "observed_high", "extrapolated_order")
-    return Series(scheme=scheme, as_expected=bool(_number(group, "as_expected")), cases=_cases(group),
+    # Files of older versions lack these.
+    later = {"fitted_order": "fitted", "fitted_low": "fitted_low", "fitted_high": "fitted_high",
+             "leave_one_out": "leave_one_out", "leave_one_out_level": "leave_one_out_level", "floor": "floor"}
+    cases = _cases(group)
+    window = (int(_number(group, "observed_window_first", 1)), int(_number(group, "observed_window_last", len(cases))))
+    return Series(scheme=scheme, window=window, as_expected=bool(_number(group, "as_expected")), cases=cases,
                   **{name: _text(group, name) for name in texts},
-                  **{name: _number(group, name) for name in numbers})
+                  **{name: _number(group, name) for name in numbers},
+                  **{name: _number(group, f"observed_{stored}", math.nan) for name, stored in later.items()})
 
 
 def _finding(group):

@@ -2,29 +2,80 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace acstudy {
 
-std::string CheckedSeries::remark() const {
-  if (!complete()) {
-    return fmt::format("{} of {} cases; the run was interrupted", record.levels.size(), record.cases_planned);
+namespace {
+
+/// The row of a judgement; `stated` is the verdict in the file.
+Row row_of(const std::string& file, const std::string& study, const std::string& name, const Judgement& judgement,
+           bool as_expected, const std::string& expected, const std::string& stated) {
+  const std::string verdict(name_of(judgement.verdict));
+  Row row{.file = file,
+          .study = study,
+          .name = name,
+          .observed = observed_text(judgement),
+          .verdict = verdict,
+          .expected = expected,
+          .reason = judgement.reason,
+          .passes = as_expected && stated == verdict};
+  if (stated != verdict) {
+    row.reason = fmt::format("the file says {}, but its numbers say otherwise: {}", stated, judgement.reason);
   }
-  if (record.verdict != name_of(judgement.verdict)) {
-    return fmt::format("the file says {}, but its errors say otherwise: {}", record.verdict, judgement.reason);
-  }
-  return judgement.reason;
+  return row;
 }
 
-std::vector<CheckedSeries> check_series(std::vector<SeriesRecord> records) {
-  std::vector<CheckedSeries> all;
-  for (SeriesRecord& record : records) {
-    Judgement judgement = judge(record.levels, record.theory_order);
-    if (!record.failure.empty()) {
-      judgement.verdict = Verdict::inconclusive;
-      judgement.reason = not_computed(record.failure);
-    }
-    all.push_back({std::move(record), judgement});
+Row check_series(const std::string& file, const SeriesRecord& record) {
+  Judgement judgement = judge(record.levels, record.theory_order);
+  if (!record.failure.empty()) {
+    judgement.verdict = Verdict::inconclusive;
+    judgement.reason = not_computed(record.failure);
   }
-  return all;
+  Row row = row_of(file, record.study, record.label, judgement, meets(judgement.verdict, record.expected),
+                   std::string(name_of(record.expected)), record.verdict);
+  if (record.levels.size() != record.cases_planned) {
+    row.passes = false;
+    row.reason = fmt::format("{} of {} cases; the run was interrupted", record.levels.size(), record.cases_planned);
+  }
+  return row;
+}
+
+}  // namespace
+
+std::string observed_text(const Judgement& judgement) {
+  if (std::isnan(judgement.order)) return "-";
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", judgement.order, judgement.low, judgement.high);
+}
+
+std::string expected_text(const Finding& finding) {
+  std::string text(name_of(finding.expected));
+  for (const Verdict also : finding.also_expected) text += fmt::format(" or {}", name_of(also));
+  return text;
+}
+
+std::vector<Row> check_file(const std::string& file) {
+  std::vector<Row> rows;
+  const ResultRecord all = read_json(file);
+  for (const SeriesRecord& record : all.series) rows.push_back(check_series(file, record));
+  for (const FindingRecord& record : all.findings) {
+    const Finding& finding = record.finding;
+    rows.push_back(row_of(file, record.study, finding.label(), finding.judgement, finding.as_expected(),
+                          expected_text(finding), record.verdict));
+  }
+  if (all.findings.size() != all.findings_planned) {
+    const std::string reason =
+        fmt::format("{} of {} findings; the run was interrupted", all.findings.size(), all.findings_planned);
+    rows.push_back({.file = file,
+                    .study = all.study,
+                    .name = "all findings",
+                    .observed = "-",
+                    .verdict = "inconclusive",
+                    .expected = "a whole run",
+                    .reason = reason,
+                    .passes = false});
+  }
+  return rows;
 }
 
 }  // namespace acstudy

@@ -6,23 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "studies/gate.hpp"
 #include "studies/result_json.hpp"
 
 namespace acstudy {
 
-/// A series of a result file, judged from the errors in the file; what the file says of itself is only compared.
-struct CheckedSeries {
-  SeriesRecord record;
-  Judgement judgement;
+/// "1.02 [0.98, 1.06]", or "-" where no order was estimated.
+std::string observed_text(const Judgement& judgement);
+/// The expected verdict, with those that are as right.
+std::string expected_text(const Finding& finding);
 
-  bool complete() const { return record.levels.size() == record.cases_planned; }
-  bool passes() const {
-    return complete() && record.verdict == name_of(judgement.verdict) && meets(judgement.verdict, record.expected);
-  }
-  /// Why it does not pass, or the reason of the verdict.
-  std::string remark() const;
-};
-
-std::vector<CheckedSeries> check_series(std::vector<SeriesRecord> records);
+/// A row per series or finding of a result file, judged from the numbers in it; what the file says of itself is only
+/// compared. What is missing because a run was interrupted departs.
+/// @throws InputError if the file is no result file
+std::vector<Row> check_file(const std::string& file);
 
 }  // namespace acstudy

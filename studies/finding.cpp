@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace acstudy {
@@ -14,20 +15,16 @@ Judgement judge_bounds(const std::vector<Point>& points) {
   judgement.order = judgement.low = judgement.high = judgement.extrapolated = none;
   judgement.verdict = Verdict::violated;
   judgement.reason = "nothing was measured";
-  // How far into its bounds a value has come: 1 at a bound, above 1 beyond.
-  const auto excess = [](const Point& point) {
-    if (std::isnan(point.value) || std::isnan(point.lower) || std::isnan(point.upper)) return HUGE_VAL;
-    if (point.value > point.upper || point.value < point.lower) {
-      return 1.0 + std::max(point.value - point.upper, point.lower - point.value);
-    }
-    return std::abs(point.value) / std::max(std::abs(point.lower), std::abs(point.upper));
+  // Written so that a NaN is not within.
+  const auto within = [](const Point& point) { return point.lower <= point.value && point.value <= point.upper; };
+  // The distance to the nearer bound, positive within.
+  const auto room = [](const Point& point) { return std::min(point.value - point.lower, point.upper - point.value); };
+  const auto worse = [&](const Point& a, const Point& b) {
+    return within(a) != within(b) ? within(b) : room(a) < room(b);
   };
-  const Point* worst = nullptr;
-  for (const Point& point : points) {
-    if (worst == nullptr || !(excess(point) <= excess(*worst))) worst = &point;
-  }
-  if (worst == nullptr) return judgement;
-  judgement.verdict = excess(*worst) <= 1.0 ? Verdict::holds : Verdict::violated;
+  const auto worst = std::min_element(points.begin(), points.end(), worse);
+  if (worst == points.end()) return judgement;
+  judgement.verdict = within(*worst) ? Verdict::holds : Verdict::violated;
   const std::string where = (worst->N > 0 ? fmt::format(", N = {}", worst->N) : "") +
                             (std::isnan(worst->delta) ? "" : fmt::format(", delta = {:.3g}", worst->delta));
   const std::string demanded = std::isinf(worst->lower) ? fmt::format("at most {:.6g}", worst->upper)

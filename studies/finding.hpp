@@ -3,6 +3,7 @@
 /// @file
 /// A finding: one statement of theory, what was measured, and whether the two agree.
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -40,17 +41,21 @@ struct Finding {
   std::string check;      ///< under which conditions: "jittered, delta = 4h"
   std::string quantity;   ///< what the values are: "max |rate + f - du/dt|"
   Test test;
-  std::string variable;       ///< name of `Point::variable`: "h"
-  double theory_order = 0.0;  ///< of Test::order
-  Verdict promised;           ///< the verdict if the statement is true
-  Verdict expected;           ///< the verdict that the study demands: another one for a negative control
+  std::string variable;                ///< name of `Point::variable`: "h"
+  double theory_order = 0.0;           ///< of Test::order
+  Verdict promised;                    ///< the verdict if the statement is true
+  Verdict expected;                    ///< the verdict that the study demands: another one for a negative control
+  std::vector<Verdict> also_expected;  ///< verdicts that are as right as the expected one
   std::vector<Point> points;
   std::string remark;  ///< what a reader must know besides; may be empty
 
   Judgement judgement;  ///< set by judge()
 
   std::string label() const { return statement + ": " + subject + "; " + check; }
-  bool as_expected() const { return meets(judgement.verdict, expected); }
+  bool as_expected() const {
+    return meets(judgement.verdict, expected) ||
+           std::find(also_expected.begin(), also_expected.end(), judgement.verdict) != also_expected.end();
+  }
   /// The statement does not hold of the subject, expected or not.
   bool alarm() const { return !meets(judgement.verdict, promised); }
 };

@@ -1,5 +1,5 @@
 /// @file
-/// The command line: acstudy run | check | explain | list.
+/// The command line: acstudy run | check | fit | explain | list.
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -11,12 +11,15 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <thread>
 
 #include "build_info.hpp"
 #include "studies/check.hpp"
 #include "studies/explain.hpp"
+#include "studies/fit.hpp"
+#include "studies/gate.hpp"
 #include "studies/runner.hpp"
 #include "studies/study_file.hpp"
 
@@ -56,46 +59,61 @@ std::vector<Study> read_studies(const std::vector<std::string>& files) {
   return studies;
 }
 
+/// What keeps a file from being made in a folder; empty if nothing does.
+std::string why_not_writable(const fs::path& folder) {
+  const fs::path probe = folder / ".acstudy-writable";
+  std::FILE* const file = std::fopen(probe.c_str(), "w");
+  if (file == nullptr) return std::strerror(errno);
+  std::fclose(file);
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+  return "";
+}
+
 /// Makes the output folder and tries it, before hours of work depend on it.
 void prepare_folder(const fs::path& out) {
   std::error_code error;
   fs::create_directories(out, error);
-  const fs::path probe = out / ".acstudy-writable";
-  std::FILE* const file = error ? nullptr : std::fopen(probe.c_str(), "w");
-  if (file == nullptr) {
-    throw InputError(fmt::format("{}: cannot write to the output folder: {}; name another one with --out", out.string(),
-                                 error ? error.message() : std::strerror(errno)));
+  if (const std::string why = error ? error.message() : why_not_writable(out); !why.empty()) {
+    throw InputError(
+        fmt::format("{}: cannot write to the output folder: {}; name another one with --out", out.string(), why));
   }
-  std::fclose(file);
-  fs::remove(probe, error);
 }
 
-std::string interval(const Judgement& judgement) {
-  if (std::isnan(judgement.order)) return "-";
-  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", judgement.order, judgement.low, judgement.high);
+/// Throws unless the file can be written. It will be replaced as a whole, which no device or folder must be, and no
+/// result file: in `--junit *.json` the shell names the first of them.
+void require_writable(const fs::path& file) {
+  std::error_code ignored;
+  const bool replaceable = !fs::exists(file, ignored) || fs::is_regular_file(file, ignored);
+  std::string why;
+  if (!file.has_filename()) {
+    why = "it has no name";
+  } else if (file.extension() == ".json") {
+    why = "a result file has such a name";
+  } else if (!replaceable) {
+    why = "there is something that is no regular file";
+  } else {
+    why = why_not_writable(file.parent_path().empty() ? "." : file.parent_path());
+  }
+  if (why.empty()) return;
+  throw InputError(
+      fmt::format("{}: cannot write the JUnit file: {}; name another one with --junit", file.string(), why));
 }
 
-/// A line of the table that `run` and `check` print.
-struct Row {
-  bool passes;
-  std::string study, series;
-  Judgement judgement;
-  Verdict expected;
-  std::string remark;
-};
-
-void print_table(const std::vector<Row>& rows) {
-  std::size_t study_width = 0, series_width = 0;
-  for (const Row& row : rows) {
-    study_width = std::max(study_width, row.study.size());
-    series_width = std::max(series_width, row.series.size());
+/// Findings are many: `run` shows those that depart, `check` all.
+std::vector<Row> departing_findings(const StudyResult& study) {
+  std::vector<Row> rows;
+  for (const auto& finding : study.findings) {
+    if (!finding || finding->as_expected()) continue;
+    rows.push_back({.study = study.study->name,
+                    .name = finding->label(),
+                    .observed = observed_text(finding->judgement),
+                    .verdict = std::string(name_of(finding->judgement.verdict)),
+                    .expected = expected_text(*finding),
+                    .reason = finding->judgement.reason,
+                    .passes = false});
   }
-  for (const Row& row : rows) {
-    fmt::print("{:<6}  {:<{}}  {:<{}}  {:<20}  {}", row.passes ? "ok" : "DEPART", row.study, study_width, row.series,
-               series_width, interval(row.judgement), name_of(row.judgement.verdict));
-    if (!row.passes) fmt::print(", expected {}: {}", name_of(row.expected), row.remark);
-    fmt::print("\n");
-  }
+  return rows;
 }
 
 int run(const std::vector<std::string>& files, RunOptions options) {
@@ -108,27 +126,38 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   int status = done;
   std::vector<Row> rows;
   for (const StudyResult& study : result.studies) {
-    for (const auto& finding : study.findings) {
-      if (!finding) continue;
-      rows.push_back({finding->as_expected(), study.study->name, finding->label(), finding->judgement,
-                      finding->expected, finding->judgement.reason});
-      if (!finding->as_expected()) status = std::max<int>(status, departs);
+    if (!study.study->judged_by_series()) {
+      const std::vector<Row> departing = departing_findings(study);
+      rows.insert(rows.end(), departing.begin(), departing.end());
+      if (!departing.empty()) {
+        status = std::max<int>(status, departs);
+      } else if (!result.interrupted) {
+        rows.push_back({.study = study.study->name,
+                        .name = fmt::format("{} findings", study.findings.size()),
+                        .observed = "-",
+                        .verdict = "as expected",
+                        .passes = true});
+      }
+      continue;
     }
-    if (!study.study->judged_by_series()) continue;
     for (const SeriesResult& series : study.series) {
       if (result.interrupted && series.completed().size() < series.results.size()) continue;
       const bool passes = series.as_expected();
-      rows.push_back({passes, study.study->name, series.series->label(), series.judgement, series.series->expected,
-                      series.judgement.reason});
+      rows.push_back({.study = study.study->name,
+                      .name = series.series->label(),
+                      .observed = observed_text(series.judgement),
+                      .verdict = std::string(name_of(series.judgement.verdict)),
+                      .expected = std::string(name_of(series.series->expected)),
+                      .reason = series.judgement.reason,
+                      .passes = passes});
       if (!passes) {
         const bool numerical = series.failed() || series.judgement.verdict == Verdict::unstable;
         status = std::max<int>(status, numerical ? numerical_failure : departs);
       }
     }
   }
-  print_table(rows);
-  fmt::print("{} cases computed, {} taken from the store; results in {}\n", result.computed, result.reused,
-             options.out.string());
+  fmt::print("{}{} cases computed, {} taken from the store; results in {}\n", table_text(rows), result.computed,
+             result.reused, options.out.string());
   if (result.interrupted) {
     say("interrupted; finished cases are stored, and the same command goes on from them");
     return interrupted;
@@ -136,30 +165,15 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   return status;
 }
 
-int check(const std::vector<std::string>& files) {
+int check(const std::vector<std::string>& files, const std::optional<std::string>& junit, bool github) {
+  if (junit) require_writable(*junit);
   std::vector<Row> rows;
-  std::size_t departing = 0;
   for (const std::string& file : files) {
-    const ResultRecord record = read_json(file);
-    for (const FindingRecord& found : record.findings) {
-      const Finding& finding = found.finding;
-      const bool passes = finding.as_expected() && found.verdict == name_of(finding.judgement.verdict);
-      rows.push_back({passes, found.study, finding.label(), finding.judgement, finding.expected,
-                      found.verdict == name_of(finding.judgement.verdict)
-                          ? finding.judgement.reason
-                          : fmt::format("the file says {}, but its values say otherwise: {}", found.verdict,
-                                        finding.judgement.reason)});
-      departing += passes ? 0 : 1;
-    }
-    for (const CheckedSeries& series : check_series(record.series)) {
-      rows.push_back({series.passes(), series.record.study, series.record.label, series.judgement,
-                      series.record.expected, series.remark()});
-      departing += series.passes() ? 0 : 1;
-    }
+    for (Row& row : check_file(file)) rows.push_back(std::move(row));
   }
-  print_table(rows);
-  fmt::print("{} series, {} as expected, {} departing\n", rows.size(), rows.size() - departing, departing);
-  return departing == 0 ? done : departs;
+  fmt::print("{}{}{}", table_text(rows), count_text(rows), github ? github_text(rows) : "");
+  if (junit) replace_atomically(*junit, junit_text(rows));
+  return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.passes; }) ? done : departs;
 }
 
 int list(const std::string& what) {
@@ -212,6 +226,8 @@ int main(int argc, char** argv) {
   RunOptions options;
   options.jobs = available_processors();
   std::string out = options.out.string(), what;
+  std::optional<std::string> junit;
+  bool github = false;
 
   CLI::App* const run_command = app.add_subcommand("run", "Run every case of the studies that is not stored yet");
   run_command->add_option("STUDY.toml", files, "study files")->required();
@@ -229,6 +245,23 @@ int main(int argc, char** argv) {
   CLI::App* const check_command =
       app.add_subcommand("check", "The gate: judge result files; exit 1 if a verdict departs");
   check_command->add_option("FILE.json", files, "result files")->required();
+  check_command->add_option("--junit", junit, "write the gates as JUnit XML, too")->type_name("FILE");
+  check_command->add_flag("--github", github, "print an annotation for GitHub Actions per gate that departs");
+
+  FitRequest request;
+  bool json = false;
+  CLI::App* const fit_command =
+      app.add_subcommand("fit", "Judge a table of errors; exit 0 only if they have the order of --order");
+  fit_command->add_option("TABLE.csv", request.file, "a table whose first line names its columns")->required();
+  fit_command->add_option("--variable", request.variable, "column of the variable")
+      ->type_name("NAME")
+      ->capture_default_str();
+  fit_command->add_option("--error", request.error, "column of the errors")->type_name("NAME")->capture_default_str();
+  fit_command
+      ->add_option("--weight", request.weight, "column of weights, as one over the variance of the relative error")
+      ->type_name("NAME");
+  fit_command->add_option("--order", request.order, "theory's order; 0: the error must settle")->type_name("P");
+  fit_command->add_flag("--json", json, "print one JSON object");
 
   CLI::App* const explain_command =
       app.add_subcommand("explain", "Print what a study computes and what it leaves out; computes nothing");
@@ -245,7 +278,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto used = app.get_subcommands();
     if (used.empty() && argc > 1) {
-      say(fmt::format("unknown command \"{}\"; write run, check, explain or list; see acstudy --help", argv[1]));
+      say(fmt::format("unknown command \"{}\"; write run, check, fit, explain or list; see acstudy --help", argv[1]));
       return bad_input;
     }
     say(fmt::format("{}; see acstudy {}--help", error.what(), used.empty() ? "" : used.front()->get_name() + " "));
@@ -259,7 +292,11 @@ int main(int argc, char** argv) {
       for (int i = 0; i < argc; ++i) options.command += (i > 0 ? " " : "") + std::string(argv[i]);
       status = run(files, options);
     } else if (*check_command) {
-      status = check(files);
+      status = check(files, junit, github);
+    } else if (*fit_command) {
+      const Fit fit = fit_table(request);
+      fmt::print("{}", json ? as_json(fit) : as_text(fit));
+      status = fit.passes() ? done : departs;
     } else if (*list_command) {
       status = list(what);
     } else {

@@ -22,13 +22,12 @@ using json = nlohmann::ordered_json;
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json observed_json(const Judgement& judgement) {
-  json pairwise = json::array();
-  for (const double order : judgement.pairwise) pairwise.push_back(number(order));
-  return {{"order", number(judgement.order)},
-          {"low", number(judgement.low)},
-          {"high", number(judgement.high)},
-          {"extrapolated", number(judgement.extrapolated)},
-          {"pairwise", pairwise}};
+  json out;
+  for (const auto& [name, value] : named_estimates(judgement)) out[name] = number(value);
+  out["extrapolated"] = number(judgement.extrapolated);
+  out["pairwise"] = json::array();
+  for (const double order : judgement.pairwise) out["pairwise"].push_back(number(order));
+  return out;
 }
 
 json series_json(const Study& study, const SeriesResult& result) {
@@ -97,6 +96,7 @@ json finding_json(const Finding& finding) {
   out["verdict"] = name_of(judgement.verdict);
   out["promised"] = name_of(finding.promised);
   out["expected"] = name_of(finding.expected);
+  for (const Verdict verdict : finding.also_expected) out["also_expected"].push_back(name_of(verdict));
   out["as_expected"] = finding.as_expected();
   out["alarm"] = finding.alarm();
   out["reason"] = judgement.reason;
@@ -159,6 +159,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   finding.theory_order = finding.test == Test::order ? real(one.at("theory_order")) : 0.0;
   finding.promised = verdict(one.at("promised"));
   finding.expected = verdict(one.at("expected"));
+  for (const json& also : one.value("also_expected", json::array())) finding.also_expected.push_back(verdict(also));
   for (const json& point : one.at("points")) {
     Point& p = finding.points.emplace_back();
     p.N = point.at("N").get<std::int64_t>();
@@ -228,7 +229,7 @@ ResultRecord read_json(const std::string& file) {
   ResultRecord all;
   try {
     const json root = json::parse(text.str());
-    const std::string study = root.at("study").get<std::string>();
+    const std::string& study = all.study = root.at("study").get<std::string>();
     if (root.contains("findings")) {
       all.findings_planned = root.at("findings_planned").get<std::size_t>();
       for (const json& finding : root.at("findings")) all.findings.push_back(read_finding(study, finding));

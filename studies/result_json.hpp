@@ -32,6 +32,7 @@ struct FindingRecord {
 };
 
 struct ResultRecord {
+  std::string study;
   std::vector<SeriesRecord> series;
   std::vector<FindingRecord> findings;
   std::size_t findings_planned = 0;

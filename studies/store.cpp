@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "studies/h5.hpp"
 #include "studies/result_json.hpp"
@@ -62,9 +63,9 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   h5::write_text(group, "theory_variable", series.theory.variable);
   h5::write_number(group, "theory_order", series.theory.order);
   h5::write_text(group, "theory_statement", series.theory.statement);
-  h5::write_number(group, "observed_order", result.judgement.order);
-  h5::write_number(group, "observed_low", result.judgement.low);
-  h5::write_number(group, "observed_high", result.judgement.high);
+  for (const auto& [name, value] : named_estimates(result.judgement)) {
+    h5::write_number(group, "observed_" + name, value);
+  }
   h5::write_number(group, "extrapolated_order", result.judgement.extrapolated);
   h5::write_text(group, "verdict", std::string(name_of(result.judgement.verdict)));
   h5::write_text(group, "expected", std::string(name_of(series.expected)));
@@ -137,6 +138,9 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
   h5::write_number(group, "theory_order", finding.theory_order);
   h5::write_text(group, "promised", std::string(name_of(finding.promised)));
   h5::write_text(group, "expected", std::string(name_of(finding.expected)));
+  std::string also;
+  for (const Verdict verdict : finding.also_expected) also += (also.empty() ? "" : " ") + std::string(name_of(verdict));
+  h5::write_text(group, "also_expected", also);
   h5::write_text(group, "verdict", std::string(name_of(finding.judgement.verdict)));
   h5::write_text(group, "reason", finding.judgement.reason);
   h5::write_number<std::int64_t>(group, "as_expected", finding.as_expected() ? 1 : 0);
@@ -162,6 +166,8 @@ Finding read_finding(hid_t group) {
   finding.theory_order = h5::read_number(group, "theory_order");
   finding.promised = verdict_from(h5::read_text(group, "promised")).value();
   finding.expected = verdict_from(h5::read_text(group, "expected")).value();
+  std::istringstream also(h5::read_text(group, "also_expected"));
+  for (std::string name; also >> name;) finding.also_expected.push_back(verdict_from(name).value());
   Columns columns;
   finding.points.resize(h5::read_column<double>(group, "value").size());
   for (std::size_t i = 0; i < finding.points.size(); ++i) {
@@ -220,7 +226,8 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
   return image;
 }
 
-/// Writes a temporary file beside `file`, then puts it in place in one step.
+}  // namespace
+
 void replace_atomically(const fs::path& file, std::span<const char> content) {
   const fs::path temporary = file.string() + fmt::format(".{}.partial", getpid());
   std::FILE* const stream = std::fopen(temporary.c_str(), "wb");
@@ -235,11 +242,9 @@ void replace_atomically(const fs::path& file, std::span<const char> content) {
   if (good) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw StoreError(fmt::format("{}: cannot be written: {}; free space or name another folder with --out", file.string(),
-                               std::strerror(error)));
+  throw StoreError(
+      fmt::format("{}: cannot be written: {}; free space or name another place", file.string(), std::strerror(error)));
 }
-
-}  // namespace
 
 std::vector<std::size_t> SeriesResult::completed() const {
   std::vector<std::size_t> indices;
@@ -250,6 +255,28 @@ std::vector<std::size_t> SeriesResult::completed() const {
 }
 
 std::string not_computed(const std::string& failure) { return "a case could not be computed: " + failure; }
+
+std::vector<std::pair<std::string, double>> named_estimates(const Judgement& j) {
+  const auto number = [](std::size_t level) { return static_cast<double>(level + 1); };
+  return {{"order", j.order},
+          {"low", j.low},
+          {"high", j.high},
+          {"window_first", number(j.window.first)},
+          {"window_last", number(j.window.last)},
+          {"fitted", j.fitted.order},
+          {"fitted_low", j.fitted.low},
+          {"fitted_high", j.fitted.high},
+          {"extrapolated_low", j.corrected.low},
+          {"extrapolated_high", j.corrected.high},
+          {"correction_D", j.corrected.D},
+          {"correction_q", j.corrected.q},
+          {"floor", j.floored.F},
+          {"floor_order", j.floored.order},
+          {"floor_low", j.floored.low},
+          {"floor_high", j.floored.high},
+          {"leave_one_out", j.leave_one_out.change},
+          {"leave_one_out_level", std::isnan(j.leave_one_out.change) ? not_estimated : number(j.leave_one_out.level)}};
+}
 
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results) {
   std::vector<Level> levels;

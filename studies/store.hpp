@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/provenance.hpp"
@@ -51,6 +53,10 @@ struct StudyResult {
 /// The reason of a series of which a case could not be computed; its verdict is `inconclusive`.
 std::string not_computed(const std::string& failure);
 
+/// The estimates of a judgement by the names that both result files give them, after "observed_" in the one. Levels
+/// count from 1.
+std::vector<std::pair<std::string, double>> named_estimates(const Judgement& judgement);
+
 /// Judges a series on its completed cases.
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results);
 
@@ -70,6 +76,10 @@ std::string findings_key(const Study& study);
 /// The content of a study's HDF5 file; empty if there is no such file.
 /// @throws StoreError if the file is there but cannot be read as a store
 StoredCases load_cases(const std::filesystem::path& file);
+
+/// Writes a temporary file beside `file`, then puts it in place in one step.
+/// @throws StoreError
+void replace_atomically(const std::filesystem::path& file, std::span<const char> content);
 
 /// Writes `<out>/<study>.h5` and `<out>/<study>.json`, each whole or not at all (temporary file, then rename). Cases
 /// that were not completed are left out of both.

@@ -116,7 +116,7 @@ class Results(ProgramTest):
     def test_a_study_becomes_two_files_and_a_line_per_series(self):
         self.assertEqual(sorted(file.name for file in self.out.iterdir()), ["tiny.h5", "tiny.json"])
         self.assertEqual(self.done.stderr, "")
-        self.assertEqual(len(self.done.stdout.splitlines()), 9 + 1)
+        self.assertEqual(len(self.done.stdout.splitlines()), 1 + 9 + 1)
         self.assert_counts(self.done, CASES_OF_WIDE, 0)
 
     def test_every_promised_key_is_there(self):
@@ -509,8 +509,8 @@ class Gate(ProgramTest):
     def test_good_results_pass(self):
         done = self.tampered(lambda series: None)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertRegex(done.stdout, rf"\Aok +tiny +{self.GOOD_SERIES} .* confirmed *\n"
-                                      r"1 series, 1 as expected, 0 departing\n\Z")
+        self.assertRegex(done.stdout, rf"\Agate .*\nok +tiny +{self.GOOD_SERIES} .* confirmed *\n"
+                                      r"1 gates, 0 depart\n\Z")
 
     def test_nothing_bad_passes(self):
         def error(level, change):
@@ -549,8 +549,8 @@ class Gate(ProgramTest):
             with self.subTest(what):
                 done = self.tampered(change)
                 self.assertEqual((done.returncode, done.stderr), (1, ""), done.stdout)
-                self.assertRegex(done.stdout, rf"\ADEPART +tiny +{self.GOOD_SERIES} ")
-                self.assertIn("1 series, 0 as expected, 1 departing", done.stdout)
+                self.assertRegex(done.stdout, rf"\Agate .*\nDEPART +tiny +{self.GOOD_SERIES} ")
+                self.assertIn("1 gates, 1 depart", done.stdout)
 
     def test_one_bad_file_of_several_fails(self):
         self.run_study(GOOD, expect=0)
@@ -558,7 +558,7 @@ class Gate(ProgramTest):
         for files in (("out/tiny.json", "other/tiny.json"), ("other/tiny.json", "out/tiny.json")):
             done = self.acstudy("check", *files)
             self.assertEqual(done.returncode, 1)
-            self.assertIn("2 series, 1 as expected, 1 departing", done.stdout)
+            self.assertIn("2 gates, 1 depart", done.stdout)
 
     def test_run_and_check_agree_on_a_wrong_expectation(self):
         text = edit(GOOD, ('source = "local"', 'source = "local"\nexpect = "above"'))
@@ -685,8 +685,10 @@ class Readme(ProgramTest):
         readme = (ROOT / "README.md").read_text(encoding="utf-8")
         study, = re.findall(r'```toml\n(\[study\]\nname = "first".*?)```', readme, re.S)
         shown = re.findall(r"```console\n\$ build/acstudy (.*?)\n(.*?)```", readme, re.S)
-        self.assertEqual([command for command, _ in shown], ["explain first.toml", "run first.toml --out out"])
+        self.assertEqual([command for command, _ in shown], ["explain first.toml", "run first.toml --out out",
+                                                          "fit errors.csv --order 1"])
         self.write("first.toml", study)
+        self.write("errors.csv", *re.findall(r"```csv\n(.*?)```", readme, re.S))
         for command, output in shown:
             with self.subTest(command):
                 self.assertEqual(self.acstudy(*command.split()).stdout, output)
@@ -697,9 +699,10 @@ class Words(ProgramTest):
         done = self.acstudy("--version")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertRegex(done.stdout, r"\Aacstudy \d+\.\d+\.\d+\S*\n\Z")
-        for arguments, words in ((("--help",), ("run", "check", "explain", "list", "--version", "Exit codes", "130")),
+        for arguments, words in ((("--help",), ("run", "check", "fit", "explain", "list", "--version", "Exit codes", "130")),
                                  (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--repeats", "--fresh")),
                                  (("check", "--help"), ("FILE.json", "exit 1")),
+                                 (("fit", "--help"), ("TABLE.csv", "--variable", "--error", "--weight", "--order", "--json")),
                                  (("explain", "--help"), ("STUDY.toml",)),
                                  (("list", "--help"), ("schemes", "kernels", "integrators", "scenes"))):
             done = self.acstudy(*arguments)

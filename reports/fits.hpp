@@ -1,0 +1,82 @@
+#pragma once
+
+/// @file
+/// Models of an error under refinement, fitted to its levels: power law, power law with correction, with floor.
+///
+/// Every fit is weighted least squares in the logarithms of variable and error, or in relative errors, at the actual
+/// variable of each level; so any refinement ratio is right. Preconditions throughout: variables, errors and weights
+/// are finite and positive, and variables fall strictly. With too few levels for a model all its members are NaN.
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace acstudy {
+
+/// One level of a refinement: the variable of theory (h, or max(h, delta)) and the error there.
+struct Level {
+  double variable;
+  double error;
+  double weight = 1.0;  ///< of the squared relative error; proportional to one over its variance
+};
+
+using LevelView = std::span<const Level>;
+
+inline constexpr double not_estimated = std::numeric_limits<double>::quiet_NaN();
+
+/// An order of convergence with its 95 % interval (Student t).
+struct Estimate {
+  double order = not_estimated, low = not_estimated, high = not_estimated;
+
+  double half_width() const { return (high - low) / 2.0; }
+  bool contains(double value) const { return low <= value && value <= high; }
+};
+
+/// error = C v^p, from three levels on. `residual`: weighted sum of squares, here and below.
+struct PowerLaw : Estimate {
+  double C = not_estimated, residual = not_estimated;
+};
+
+/// error = C v^p (1 + D v^q), from four levels on, or five where q is fitted too.
+struct CorrectedLaw : Estimate {
+  double C = not_estimated, D = not_estimated, q = not_estimated, residual = not_estimated;
+
+  double at(double v) const { return C * std::pow(v, order) * (1.0 + D * std::pow(v, q)); }
+};
+
+/// error = C v^p + F, from four levels on. F <= 0: the levels show no floor.
+struct FlooredLaw : Estimate {
+  double C = not_estimated, F = not_estimated, residual = not_estimated;
+};
+
+PowerLaw fit_power_law(LevelView levels);
+
+/// The interval is that of the profile: all orders at which the sum of squares, minimized over C and D, stays below
+/// (1 + t^2/(levels - 3)) times its minimum. It is not symmetric; the linearized one is too narrow unless D v is small.
+CorrectedLaw fit_corrected_law(LevelView levels, double q = 1.0);
+
+/// The same without the interval, which takes most of the time.
+CorrectedLaw fit_corrected_law_only(LevelView levels, double q = 1.0);
+
+/// q is fitted too, between 1/4 and 3, for what decays faster is no correction but an outlier; the interval is that of
+/// the linearized fit with levels - 4 degrees of freedom.
+CorrectedLaw fit_corrected_law_and_q(LevelView levels);
+
+/// The order is given and C, D, q are fitted: the correction that this order would need. No interval.
+CorrectedLaw fit_correction_of(LevelView levels, double order);
+
+/// The sum of squares of error = C v^order (1 + D v), with as many parameters as a power law.
+double residual_of_order(LevelView levels, double order);
+
+/// The interval is that of the profile over C and F.
+FlooredLaw fit_floored_law(LevelView levels);
+
+/// The t that a Student variable stays within, on both sides, with this probability.
+double student(double probability, std::size_t degrees_of_freedom);
+
+/// F test: true if one parameter more, or one level less, lowers the sum of squares from `before` to `after` by more
+/// than chance does with probability `level`. The degrees of freedom are those of `after`.
+bool significant(double before, double after, std::size_t degrees_of_freedom, double level);
+
+}  // namespace acstudy

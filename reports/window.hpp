@@ -1,0 +1,53 @@
+#pragma once
+
+/// @file
+/// Which levels an order can be read from: the asymptotic window, an outlier, the weight of a single level.
+
+#include <optional>
+
+#include "reports/fits.hpp"
+
+namespace acstudy {
+
+/// Indices of the first and the last level that count.
+struct Window {
+  std::size_t first, last;
+
+  std::size_t size() const { return last - first + 1; }
+};
+
+/// The law that the levels of a window are fitted by, and the window.
+struct Asymptotics {
+  Window window;
+  CorrectedLaw law;  ///< without its interval
+};
+
+/// Leaves out coarse levels that do not follow the law of the finer ones.
+///
+/// A level is left out, with all coarser ones, if it lies off the corrected law of the finer levels by more than their
+/// scatter explains (F test at 0.2 %) and by enough to matter. The test is this strict because a window chosen to make
+/// the fit look good makes the interval too narrow. Fine levels are never left out: an error that stops falling is a
+/// result. Four levels stay, or all if there are fewer, since a law of three parameters fits any three.
+///
+/// From six levels on the exponent q of the correction is fitted too, if the levels determine it (F test at 1 %).
+Asymptotics asymptotic_window(LevelView levels);
+
+/// A level that lies off the law of all others, and how far: log(error/law).
+struct Outlier {
+  std::size_t level;
+  double deviation;
+};
+
+/// The level without which the sum of squares falls by far more than chance explains (F test at 0.2 % over all levels).
+/// Four levels are compared with a power law, more with a corrected one; three tell nothing.
+std::optional<Outlier> find_outlier(LevelView levels);
+
+/// The largest change of the power law's order when one level is left out; signed; needs four levels.
+struct LeaveOneOut {
+  double change = not_estimated;
+  std::size_t level = 0;
+};
+
+LeaveOneOut leave_one_out(LevelView levels);
+
+}  // namespace acstudy

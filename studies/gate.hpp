@@ -1,0 +1,35 @@
+#pragma once
+
+/// @file
+/// What the gates say, in every form in which it is read: a table, JUnit XML, GitHub annotations.
+
+#include <string>
+#include <vector>
+
+namespace acstudy {
+
+/// One gate: a claim of a study, what was observed, and what the study expects.
+struct Row {
+  std::string file;  ///< the result file it was read from
+  std::string study;
+  std::string name;  ///< of the claim within its study, as the label of a series
+  std::string observed, verdict, expected;
+  std::string reason;  ///< the evidence for the verdict, or why the row departs
+  bool passes;
+};
+
+/// A header and a line per row, columns aligned; a row that departs goes on with what was expected, and the reason.
+std::string table_text(const std::vector<Row>& rows);
+
+/// "N gates, M depart"
+std::string count_text(const std::vector<Row>& rows);
+
+/// JUnit XML: a test suite per study of a file, a test case per row, a failure per row that departs. Characters that
+/// XML cannot hold are replaced by U+FFFD.
+/// @pre texts are UTF-8; rows of one study of one file stand together
+std::string junit_text(const std::vector<Row>& rows);
+
+/// A workflow command of GitHub Actions per row that departs: it becomes an annotation of the result file.
+std::string github_text(const std::vector<Row>& rows);
+
+}  // namespace acstudy

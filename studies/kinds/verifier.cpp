@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "reports/corpus.hpp"
+#include "reports/coverage.hpp"
+#include "studies/kinds/kinds.hpp"
+
+namespace acstudy {
+
+namespace {
+
+Finding corpus_finding(const CorpusEntry& entry) {
+  Finding finding{.statement = "corpus",
+                  .claim = entry.why,
+                  .subject = entry.name,
+                  .check = "verdict",
+                  .quantity = "synthetic error",
+                  .test = Test::order,
+                  .variable = "v",
+                  .theory_order = entry.theory_order,
+                  .promised = entry.right.front(),
+                  .expected = entry.right.front()};
+  finding.also_expected.assign(entry.right.begin() + 1, entry.right.end());
+  // The verdict depends on errors and round-off in units of the solution.
+  for (const Level& level : entry.levels) {
+    finding.points.push_back({.variable = level.variable, .value = level.error / entry.scale});
+  }
+  return finding;
+}
+
+/// The band for the share of 95 % intervals that contain the true order.
+constexpr double lowest_coverage = 0.93, highest_coverage = 0.97;
+
+Finding coverage_finding(const std::string& subject, const std::string& check, const std::vector<CoverageRow>& rows) {
+  Finding finding{.statement = "coverage",
+                  .claim = "the 95 % interval contains the true order 93 to 97 % of the time",
+                  .subject = subject,
+                  .check = check,
+                  .quantity = "share of intervals that contain the true order",
+                  .test = Test::bounds,
+                  .variable = "levels",
+                  .promised = Verdict::holds,
+                  .expected = Verdict::holds};
+  for (const CoverageRow& row : rows) {
+    finding.points.push_back({.N = static_cast<std::int64_t>(row.trials),
+                              .variable = static_cast<double>(row.levels),
+                              .value = row.fraction(),
+                              .lower = lowest_coverage,
+                              .upper = highest_coverage});
+  }
+  return finding;
+}
+
+std::vector<CoverageRow> of_class(const std::string& name, std::vector<CoverageRow> rows) {
+  std::erase_if(rows, [&](const CoverageRow& row) { return row.series != name; });
+  return rows;
+}
+
+/// All rows as one, its `levels` being 0.
+CoverageRow together(const std::vector<CoverageRow>& rows) {
+  CoverageRow sum{"all", 0, 0, 0, 0.0};
+  for (const CoverageRow& row : rows) {
+    sum.trials += row.trials;
+    sum.covered += row.covered;
+  }
+  return sum;
+}
+
+}  // namespace
+
+void read_corpus(const Table& root, Study& study) {
+  root.allow({"study"});
+  for (const CorpusEntry& entry : verdict_corpus()) {
+    Finding finding = corpus_finding(entry);
+    const std::string name = finding.label();
+    study.measurements.push_back({name, [finding = std::move(finding)](const auto&) mutable {
+                                    judge(finding);
+                                    return finding;
+                                  }});
+  }
+}
+
+void read_coverage(const Table& root, Study& study) {
+  root.allow({"study", "coverage"});
+  const Table table = root.sub_table("coverage");
+  table.allow({"series", "seed"});
+  const auto series = table.whole("series", table.need("series", "series = 10000"), 100, 10'000'000);
+  const auto seed = static_cast<std::uint64_t>(table.whole("seed", table.need("seed", "seed = 1"), 0, 1'000'000'000));
+  // One row a class and number of levels; known without drawing anything.
+  const std::size_t rows = interval_coverage(0, seed).size();
+  const std::size_t trials = (static_cast<std::size_t>(series) + rows - 1) / rows;
+
+  const auto measure = [&](const std::string& name, auto take) {
+    study.measurements.push_back({name, [take](const auto&) {
+                                    Finding finding = take();
+                                    judge(finding);
+                                    return finding;
+                                  }});
+  };
+  measure("coverage: reported interval", [=] {
+    const auto all = interval_coverage(trials, seed);
+    Finding finding = coverage_finding("reported interval", fmt::format("{} series", trials * rows), {together(all)});
+    return finding;
+  });
+  for (const std::string kind : {"power law", "two terms"}) {
+    measure("coverage: reported interval, " + kind, [=] {
+      return coverage_finding("reported interval", kind, of_class(kind, interval_coverage(trials, seed)));
+    });
+  }
+  for (const double q : {0.5, 2.0}) {
+    const std::string name = fmt::format("two terms, correction v^{}", q);
+    measure("coverage: reported interval, " + name, [=] {
+      Finding finding =
+          coverage_finding("reported interval", name, of_class("two terms", interval_coverage(trials, seed, q)));
+      finding.expected = Verdict::violated;
+      finding.remark =
+          "The interval is made for corrections v^1. Fewer than six levels, or noise, hide another exponent; the "
+          "interval is then too narrow.";
+      return finding;
+    });
+  }
+  measure("coverage: interval of the power law, uncorrected (control)", [=] {
+    const auto all = interval_coverage(trials, seed, [](LevelView levels) { return fit_power_law(levels); });
+    Finding finding = coverage_finding("power law alone (control)", "all series", {together(all)});
+    finding.expected = Verdict::violated;
+    finding.remark = "An interval that takes no correction into account misses the order of most series that have one.";
+    return finding;
+  });
+}
+
+}  // namespace acstudy

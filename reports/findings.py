@@ -124,6 +124,10 @@ def measured(finding):
         return f"{value} ≤ {upper}" if points.value[i] <= points.upper[i] else f"{value} > {upper}"
     if math.isinf(points.upper[i]):
         return f"{value} ≥ {lower}" if points.value[i] >= points.lower[i] else f"{value} < {lower}"
+    if lower == upper and points.lower[i] < points.upper[i]:
+        middle, half = (points.lower[i] + points.upper[i]) / 2, (points.upper[i] - points.lower[i]) / 2
+        deviation = abs(points.value[i] - middle)
+        return f"|value − {middle:g}| = {deviation:.2g} {'≤' if deviation <= half else '>'} {half:.2g}"
     inside = points.lower[i] <= points.value[i] <= points.upper[i]
     return f"{value} {'in' if inside else 'outside'} [{lower}, {upper}]"
 

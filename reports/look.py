@@ -1,7 +1,7 @@
 """The look of every figure: typography, colors, and how a figure becomes files."""
 
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import io
 import re
 
@@ -44,10 +44,11 @@ class Drawing:
     """A figure of a report and what the page says about it."""
     stem: str               # of its files; a study's name, or one followed by a dot and a slug: no two studies collide
     title: str
-    figure: object          # matplotlib's
+    figure: object          # matplotlib's; None once it is rendered
     alt: str
     caption: str
     statements: tuple = ()  # of theory that it shows; empty: those of its whole study
+    files: dict = field(default_factory=dict)   # content by extension, once it is rendered
 
 
 def slug(text):

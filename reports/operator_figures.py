@@ -212,7 +212,8 @@ def _relative(finding):
     both = np.isfinite(points.lower) & np.isfinite(points.upper)
     middle = np.where(both, (np.where(both, points.lower, 0) + np.where(both, points.upper, 0)) / 2, 0.0)
     deviation = np.abs(points.value - middle)
-    allowed = np.where(points.value >= middle, points.upper - middle, middle - points.lower)
+    above, below = points.upper - middle, middle - points.lower
+    allowed = np.where(np.isnan(points.value), np.minimum(above, below), np.where(points.value >= middle, above, below))
     usable = np.isfinite(allowed) & (allowed > 0)
     if not usable.any():
         return None

@@ -10,6 +10,7 @@ import names
 
 BARS = {"space": COLORS[0], "time": COLORS[5]}
 SMALLEST = 1e-16
+MARKED = "/////"        # hatch of a time share of more than half
 ROW, HEAD = 0.235, 0.27     # inches
 
 
@@ -22,8 +23,8 @@ def drawings(study):
         f"Bars of the parts of space and time in the error of every series of {study.title}, and dots of the parts "
         "that must be negligible. Values: table below.",
         "Largest difference of the fields without one source of error, relative to the max-norm error at the finest "
-        "level. Parts of the two bars may cancel or lie at different places, so they need not add up to 1. Beyond the "
-        "dashed line time makes more than half of the error: the observed order is not that of space alone. Right: "
+        "level. Parts of the two bars may cancel or lie at different places, so they need not add up to 1. Hatched: "
+        "time makes more than half of the error; the observed order is not that of space alone. Right: "
         "what must stay left of the line.")]
 
 
@@ -67,10 +68,12 @@ def shares_figure(found):
         bars.set_xlabel("part / error", labelpad=2)
         small.set_xlabel("part / error", labelpad=2)
         keys = {label: Patch(facecolor=color) for label, color in BARS.items()}
+        if any(_shares(finding).get("time", 0.0) > 0.5 for finding in found):
+            keys["time > half"] = Patch(facecolor=BARS["time"], hatch=MARKED, edgecolor="black", linewidth=0)
         keys |= {label: Line2D([], [], linestyle="none", marker=MARKERS[i % len(MARKERS)], color=_color(i))
                  for i, label in enumerate(dots)}
-        figure.legend(keys.values(), map(names.literal, keys), loc="lower left", ncol=len(keys), columnspacing=1.6,
-                      bbox_to_anchor=(left / WIDTH, 0.12 / figure.get_figheight()), **{**LEGEND, "handlelength": 1.3})
+        figure.legend(keys.values(), map(names.literal, keys), loc="lower left", ncol=len(keys), columnspacing=1.5,
+                      bbox_to_anchor=(1.0 / WIDTH, 0.12 / figure.get_figheight()), **{**LEGEND, "handlelength": 1.3})
         return figure
 
 
@@ -83,7 +86,8 @@ def _row(bars, small, finding, y, dots):
     for i, (label, shade) in enumerate(BARS.items()):
         value = shares.get(label, math.nan)
         if math.isfinite(value):
-            bars.barh(y + 0.1 * ROW + (i + 0.5) * thick, value, height=thick, color=shade)
+            bars.barh(y + 0.1 * ROW + (i + 0.5) * thick, value, height=thick, facecolor=shade, edgecolor="black",
+                      linewidth=0, hatch=MARKED if label == "time" and value > 0.5 else None)
     small.axhline(y + ROW / 2, color="#EDF0F3", linewidth=0.6, zorder=0)
     low, high = small.get_xlim()
     for i, label in enumerate(dots):

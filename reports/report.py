@@ -43,18 +43,19 @@ def report(folder, files):
     import claims
     import drawing
     import figures
-    import look
     import page
     import results
 
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
     styles = figures.scheme_styles(studies)
-    drawings = {study.name: drawing.of_study(study, styles) for study in studies}
-    cost = figures.cost_drawing(studies, styles)
-    for drawn in (*(one for group in drawings.values() for one in group), *filter(None, [cost])):
-        for kind, content in look.render(drawn.figure, drawn.title).items():
-            _write(folder / f"{drawn.stem}.{kind}", content)
+    drawings = {}
+    for study, drawn in zip((*studies, None), drawing.of_all(studies, styles)):
+        for one in drawn:
+            for kind, content in one.files.items():
+                _write(folder / f"{one.stem}.{kind}", content)
+        drawings[study.name if study else "cost"] = drawn
+    cost = next(iter(drawings.pop("cost")), None)
     index = folder / "index.html"
     _write(index, page.html(studies, drawings, cost).encode("utf-8"))
     _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))

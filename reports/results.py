@@ -256,9 +256,10 @@ def _columns(group, record, integers, between=frozenset(), without=frozenset()):
     """The data sets named as the fields of `record`, all as long as N; one shorter those `between` two entries."""
     arrays = {}
     for name in (name for name in record.__dataclass_fields__ if name not in without):
-        if name not in group:
-            raise KeyError(f"{group.name}: no dataset {name}")
-        values = np.atleast_1d(group[name][()])
+        try:
+            values = np.atleast_1d(group[name][()])
+        except KeyError:
+            raise KeyError(f"{group.name}: no dataset {name}") from None
         arrays[name] = values.astype(np.int64 if name in integers else float)
     n = len(arrays["N"])
     for name, values in arrays.items():
@@ -269,11 +270,12 @@ def _columns(group, record, integers, between=frozenset(), without=frozenset()):
 
 
 def _attribute(group, name, default):
-    if name in group.attrs:
+    try:    # asking first whether it is there would take as long again
         return group.attrs[name]
-    if default is None:
-        raise KeyError(f"{group.name}: no attribute {name}")
-    return default
+    except KeyError:
+        if default is None:
+            raise KeyError(f"{group.name}: no attribute {name}") from None
+        return default
 
 
 def _text(group, name, default=None):

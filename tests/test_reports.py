@@ -10,9 +10,7 @@ from xml.etree import ElementTree
 import h5py
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-from result_files import ROOT, ReportTest, series, write
+from tests.result_files import ROOT, ReportTest, series, write
 
 import axes
 import figures

@@ -137,7 +137,8 @@ def corpus_table(study):
         f"<td>{escape(' or '.join((finding.expected, *finding.also_expected)))}</td>"
         f"<td>{markup.badge(finding)}</td><td>{'yes' if finding.as_expected else '<strong>no</strong>'}</td></tr>\n"
         for finding in study.findings)
-    return markup.table(("series", "why", "theory's order", "right verdict", "given verdict", "right"), rows, study.title)
+    columns = ("series", "why", "theory's order", "right verdict", "given verdict", "right")
+    return markup.table(columns, rows, study.title)
 
 
 def _anchor(statement):

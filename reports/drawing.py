@@ -31,7 +31,8 @@ def of_study(study, styles):
 def of_all(studies, styles):
     """The rendered drawings of each study, and at the end those of all together: an iterator of lists."""
     tasks = [*((of_study, study, styles) for study in studies), (_of_cost, studies, styles)]
-    processes = min(len(tasks) - 1, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count())
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    processes = min(len(studies), usable)
     if processes < 2:
         yield from map(_rendered, tasks)
         return

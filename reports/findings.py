@@ -119,7 +119,8 @@ def measured(finding):
     if i is None or finding.test != "bounds":
         return "–"
     points = finding.points
-    value, lower, upper = (f"{column[i]:.6g}".replace("-", "−") for column in (points.value, points.lower, points.upper))
+    columns = points.value, points.lower, points.upper
+    value, lower, upper = (f"{column[i]:.6g}".replace("-", "−") for column in columns)
     if math.isinf(points.lower[i]):
         return f"{value} ≤ {upper}" if points.value[i] <= points.upper[i] else f"{value} > {upper}"
     if math.isinf(points.upper[i]):

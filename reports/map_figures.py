@@ -36,7 +36,7 @@ def drawings(study):
         Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.series, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left: fitted order in h at each horizon, with its 95 % interval. Right: error at the finest "
-                "spacing; against the local equation it approaches the distance of the two solutions, of order 1 in δ.")]
+                "spacing; against the local equation it approaches the distance of the two solutions, O(δ).")]
 
 
 def error_planes(series):
@@ -86,8 +86,8 @@ def map_figure(study, planes):
                 panel.set_title(titles[scheme, target], fontsize=9, pad=4)
                 if row == 0:
                     panel.annotate(textwrap.fill(labels[scheme], max(14, int(width / 0.078))), (0.5, 1),
-                                   xycoords="axes fraction", xytext=(0, 72 * spaces[0]), textcoords="offset points", ha="center",
-                                   va="bottom", fontsize=11.5, linespacing=1.0)
+                                   xycoords="axes fraction", xytext=(0, 72 * spaces[0]), textcoords="offset points",
+                                   ha="center", va="bottom", fontsize=11.5, linespacing=1.0)
                 if row == len(targets) - 1:
                     panel.set_xlabel("$h$")
                 if column == 0:

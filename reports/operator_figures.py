@@ -7,7 +7,8 @@ from matplotlib.lines import Line2D
 import numpy as np
 
 import axes
-from look import COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, slug, typography
+from look import (COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, slug,
+                  typography)
 import names
 
 LEFT, RIGHT, GAP = 0.78, 0.1, 0.16     # inches
@@ -19,7 +20,8 @@ def consistency_drawings(study):
     """A figure per statement: a column per arrangement of the particles, a row per quantity and path or sweep."""
     drawings = []
     for statement in dict.fromkeys(finding.statement for finding in study.findings):
-        found = [finding for finding in study.findings if finding.statement == statement and _curve(finding) is not None]
+        found = [finding for finding in study.findings
+                 if finding.statement == statement and _curve(finding) is not None]
         if found:
             drawings.append(Drawing(
                 f"{study.name}.{slug(statement)}", f"{study.title}: {statement}", curves_figure(found),
@@ -119,10 +121,12 @@ def identity_drawings(study):
     if bounded:
         drawings.append(Drawing(
             study.name, study.title, dots_figure(bounded),
-            f"Dot plot of {study.title}: the largest value of every finding relative to its bound. Values: table below.",
-            "A dot per finding: the largest |value| relative to its bound, over all its particles and horizons; between "
-            "two bounds, the distance to their middle. At the right edge: 1000 times the bound or more. A negative control (open) belongs to the right of the line, all others to the "
-            "left. Right: the largest |value| of the row."))
+            f"Dot plot of {study.title}: the largest value of every finding relative to its bound. "
+            "Values: table below.",
+            "A dot per finding: the largest |value| relative to its bound, over all its particles and horizons; "
+            "between two bounds, the distance to their middle. At the right edge: 1000 times the bound or more. A "
+            "negative control (open) belongs to the right of the line, all others to the left. Right: the largest "
+            "|value| of the row."))
     curves = [finding for finding in study.findings if finding.test != "bounds" and _curve(finding) is not None]
     if curves:
         drawings.append(Drawing(
@@ -157,8 +161,9 @@ def dots_figure(found):
         y = 0.0
         for (statement, quantity), subjects in blocks.items():
             panel.axhline(y, color="#D8DEE4", linewidth=0.7)
-            panel.annotate(names.literal(f"{statement}: {quantity}"), (-left + 0.1, y + head / 2),
-                           xycoords=_inches_and_data(panel, left), va="center", fontsize=10, annotation_clip=False)
+            panel.annotate(names.literal(f"{statement}: {quantity}"), (edge - 0.15, y + head / 2),
+                           xytext=(8 - 72 * left, 0), textcoords="offset points", va="center", fontsize=10,
+                           annotation_clip=False)
             y += head
             for subject in subjects:
                 _dots(panel, groups[statement, quantity, subject], arrangements, y + row / 2, edge)
@@ -169,7 +174,8 @@ def dots_figure(found):
                                textcoords="offset points", fontsize=9, annotation_clip=False, color=GRAY)
                 y += row
         panel.axvline(0, color="black", linewidth=1.0)
-        panel.annotate("bound", (0, 0), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=10)
+        panel.annotate("bound", (0, 0), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom",
+                       fontsize=10)
         stride = max(1, round((ceiling - floor) / 8))
         ticks = [edge, *range(-stride * int(-floor / stride), math.floor(ceiling) + 1, stride)]
         panel.set_xticks(ticks, ["less", *(f"$10^{{{tick}}}$" for tick in ticks[1:])])
@@ -183,13 +189,6 @@ def dots_figure(found):
         return figure
 
 
-def _inches_and_data(panel, left):
-    """x in inches from the panel's left edge, y in data."""
-    from matplotlib.transforms import ScaledTranslation, Affine2D, blended_transform_factory
-    scale = panel.figure.dpi_scale_trans + ScaledTranslation(left, 0, panel.figure.dpi_scale_trans)
-    return blended_transform_factory(scale, panel.transData)
-
-
 def _dots(panel, found, arrangements, y, edge):
     panel.axhline(y, color="#EDF0F3", linewidth=0.6, zorder=0)
     for finding in found:
@@ -197,8 +196,9 @@ def _dots(panel, found, arrangements, y, edge):
         i = arrangements.index(_arrangement(finding))
         color = COLORS[i % len(COLORS)] if finding.as_expected else DEPARTING
         low, high = 10 ** edge, 10 ** panel.get_xlim()[1]
-        panel.plot(math.log10(min(max(ratio, low), high)), y, linestyle="none", marker=MARKERS[i % len(MARKERS)], markersize=4.5,
-                   color=color, markerfacecolor="none" if finding.control else color, alpha=0.85, clip_on=False)
+        panel.plot(math.log10(min(max(ratio, low), high)), y, linestyle="none",
+                   marker=MARKERS[i % len(MARKERS)], markersize=4.5, color=color,
+                   markerfacecolor="none" if finding.control else color, alpha=0.85, clip_on=False)
 
 
 def _relative(finding):
@@ -249,8 +249,8 @@ def growth_figure(found):
         curves = {id(finding): _growth(finding) for finding in found}
         values = np.concatenate([y[np.isfinite(y)] for _, y in curves.values()])
         x_all = np.concatenate([x for x, _ in curves.values()])
-        lowest = {(max(i for i, row in enumerate(rows) if any((one.statement, _arrangement(one)) == (row, column)
-                                                              for one in found)), j) for j, column in enumerate(columns)}
+        drawn = {(rows.index(finding.statement), columns.index(_arrangement(finding))) for finding in found}
+        lowest = {(max(i for i, k in drawn if k == j), j) for j in range(len(columns))}
         high = max(2.0, values.max(initial=1.0))
         low = min(-0.1, max(-10.0, values.min(initial=0.0)))
         for i, row in enumerate(rows):
@@ -332,4 +332,5 @@ def _subject_legend(figure, styles):
 
 
 def _variable(name):
-    return {"delta": r"$\delta$", "delta/h": r"$\delta/h$", "h/delta": r"$h/\delta$"}.get(name) or names.variable_math(name)
+    formulas = {"delta": r"$\delta$", "delta/h": r"$\delta/h$", "h/delta": r"$h/\delta$"}
+    return formulas.get(name) or names.variable_math(name)

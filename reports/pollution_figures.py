@@ -62,8 +62,7 @@ def shares_figure(found):
                 _row(bars, small, finding, y, dots)
                 y += ROW
         bars.axvline(0.5, color=GRAY, linewidth=0.9, linestyle=(0, (4, 2)))
-        limit = min((upper for finding in found for upper in finding.points.upper if math.isfinite(upper)), default=None)
-        if limit is not None:
+        for limit in {upper for finding in found for upper in finding.points.upper if math.isfinite(upper)}:
             small.axvline(limit, color="black", linewidth=1.0)
         bars.set_xlabel("part / error", labelpad=2)
         small.set_xlabel("part / error", labelpad=2)

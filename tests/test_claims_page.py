@@ -1,4 +1,4 @@
-"""The page of claims and the findings on the first page: every statement in its place, and nothing that departs hidden."""
+"""The page of claims, and findings on the first page: every statement in its place, nothing that departs hidden."""
 
 import math
 import unittest
@@ -118,8 +118,8 @@ class Pages(ReportTest):
         self.assertLess(index.index("pairwise orders &lt;0.5&gt;"), index.index("<summary>Every finding"))
 
     def test_a_negative_control_is_no_alarm_unless_it_holds(self):
-        caught = finding(verdict="violated", promised="holds", expected="violated", alarm=1, test="bounds", value=[2] * 4,
-                         upper=1.0)
+        caught = finding(verdict="violated", promised="holds", expected="violated", alarm=1, test="bounds",
+                         value=[2] * 4, upper=1.0)
         missed = caught | dict(verdict="holds", as_expected=0, alarm=0, check="moved")
         html = self.html(read(self.folder, kind="stability", findings=[finding(), caught]))
         self.assertIn("All 2 results are as expected", html)

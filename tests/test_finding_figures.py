@@ -16,7 +16,6 @@ import figures
 import look
 import map_figures
 import operator_figures
-import pollution_figures
 import results
 
 NOWHERE = dict(value=[math.nan, math.inf, 0.0, -1.0])
@@ -82,8 +81,9 @@ class Operators(FigureTest):
 class DetectionMatrix(FigureTest):
     def test_true_schemes_come_first_and_alarms_are_counted(self):
         alarm = dict(verdict="stagnates", expected="stagnates", alarm=1)
-        found = [finding(subject="downwind", check="delta = 4h", **alarm), finding(subject="downwind", check="step norm"),
-                 finding(subject="true", check="delta = 4h"), finding(subject="true", check="step norm")]
+        found = [finding(subject=subject, check=check) for subject in ("downwind", "true")
+                 for check in ("delta = 4h", "step norm")]
+        found[0] |= alarm
         study = self.study("controls", *found)
         self.assertEqual(control_figures.rows_and_columns(study.findings),
                          (["true", "downwind"], ["delta = 4h", "step norm"]))
@@ -110,7 +110,8 @@ class Maps(FigureTest):
             for delta in (0.001, 0.01, 0.1):
                 h = 2 * math.pi / N
                 error = h + (delta if source == "local" else 0.0)
-                made.append(series(N=N, error_linf=error, source=source, delta=np.full(3, delta), path=f"delta = {delta}"))
+                made.append(series(N=N, error_linf=error, source=source, delta=np.full(3, delta),
+                                   path=f"delta = {delta}"))
         return made
 
     def test_a_map_has_every_case_in_its_place(self):

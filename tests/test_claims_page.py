@@ -1,12 +1,15 @@
 """The page of claims, and findings on the first page: every statement in its place, nothing that departs hidden."""
 
+import json
 import math
+import subprocess
+import sys
 import unittest
 
 import h5py
 import numpy as np
 
-from tests.result_files import ReportTest, finding, series, write
+from tests.result_files import ROOT, ReportTest, finding, series, write
 
 import claims
 import findings
@@ -156,6 +159,19 @@ class Pages(ReportTest):
         self.assertIn("it &lt;drifts&gt;", index)
         self.assertEqual(index.count('<tr class="departs"><th scope="row">noise</th>'), 1)
         self.assertIn("1 of 2 synthetic series of known order get the right verdict", self.html(study))
+
+
+class Table(ReportTest):
+    def test_the_table_of_theorems_passes_over_studies_that_are_judged_by_findings(self):
+        for kind in ("corpus", "map"):
+            (self.folder / f"{kind}.json").write_text(json.dumps({"study": kind, "kind": kind, "findings": []}))
+        done = subprocess.run([sys.executable, "scripts/claims.py", str(self.folder)], cwd=ROOT, text=True,
+                              capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stderr, done.stdout.count("\n")), (0, "", 2))
+        (self.folder / "fig1.json").write_text(json.dumps({"study": "fig1", "findings": []}))
+        done = subprocess.run([sys.executable, "scripts/claims.py", str(self.folder)], cwd=ROOT, text=True,
+                              capture_output=True, check=False)
+        self.assertEqual(done.returncode, 2)
 
 
 if __name__ == "__main__":

@@ -1,51 +1,20 @@
-"""The figures of a report: error against the theory's variable for each study, error against run time for all.
+"""The figures of convergence studies: error against the theory's variable for each, error against run time for all.
 
 A figure is a function of result files alone: the same files give the same bytes. Nothing is fitted here; orders,
 intervals and verdicts are those of the result file.
 """
 
-from contextlib import contextmanager
 from dataclasses import astuple, dataclass
-import io
 import math
 import textwrap
 
-import matplotlib
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import numpy as np
 
 import axes
+from look import COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, blank, typography
 import names
-import svg
-
-# Okabe and Ito's colors, told apart by readers of every color vision; their yellow is left out: too pale for a line.
-COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
-MARKERS = ("o", "s", "^", "D", "v", "P")
-DASHES = ("solid", (0, (5, 1.6)), (0, (6, 1.4, 1.2, 1.4)), (0, (2.2, 1.2)),
-          (0, (4, 1.1, 1, 1.1, 1, 1.1)), (0, (1, 1)))
-GRAY, DEPARTING = "#595959", "#A40E26"
-WIDTH = 9.0             # inches; at 100 px an inch the 900 px of a page
-LINE = 0.148            # inches that a line of a legend takes
-TYPOGRAPHY = {
-    "font.family": "STIXGeneral", "mathtext.fontset": "stix", "font.size": 11, "axes.labelsize": 12,
-    "axes.titlesize": 12.5, "axes.titley": 1.0,     # a fixed place: searching for one costs a third of the drawing
-    "axes.linewidth": 0.7, "axes.edgecolor": "#333333", "xtick.direction": "in", "ytick.direction": "in",
-    "xtick.major.width": 0.7, "ytick.major.width": 0.7, "xtick.minor.width": 0.5, "ytick.minor.width": 0.5,
-    "lines.linewidth": 1.4, "lines.markersize": 5.5, "lines.markeredgewidth": 1.2, "legend.fontsize": 10,
-    "svg.fonttype": "none", "svg.hashsalt": "acstudy"}
-LEGEND = {"frameon": False, "borderaxespad": 0, "borderpad": 0, "handlelength": 3.0, "handletextpad": 0.6,
-          "labelspacing": 0.55}
-
-
-@contextmanager
-def typography():
-    """The look of every figure, whatever the user's matplotlibrc says."""
-    with matplotlib.rc_context():
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(TYPOGRAPHY)
-        yield
+from results import CONVERGENCE
 
 
 @dataclass(frozen=True)
@@ -66,7 +35,7 @@ class Style:
 def scheme_styles(studies):
     """A style for every scheme of the studies, in order of appearance: a scheme looks the same in every figure."""
     styles, families = {}, []
-    for scheme in (series.scheme for study in studies for series in study.series):
+    for scheme in (series.scheme for study in studies if study.kind == CONVERGENCE for series in study.series):
         if scheme in styles:
             continue
         family = (scheme.model, scheme.kernel, scheme.alpha, scheme.mu)
@@ -78,19 +47,21 @@ def scheme_styles(studies):
     return styles
 
 
-def render(figure, title):
-    """The figure as {"svg": bytes, "png": bytes}, with no date inside."""
-    images = {}
-    with typography():
-        for kind, metadata in (("svg", {"Date": None, "Title": title}), ("png", {"Software": None, "Title": title})):
-            buffer = io.BytesIO()
-            figure.savefig(buffer, format=kind, dpi=150, metadata=metadata)
-            images[kind] = buffer.getvalue()
-    images["svg"] = svg.readable(images["svg"].decode()).encode()
-    return images
-
-
 # ---------------------------------------------------------------------------------------------- error of one study
+
+def drawings(study, styles):
+    """The figures of a convergence study."""
+    figure = error_figure(study, styles)
+    if figure is None:
+        return []
+    paths = ", ".join(dict.fromkeys(series.path for series in study.series))
+    return [Drawing(
+        study.name, study.title, figure,
+        f"Log-log plot of the max-norm error at the final time for {study.title}; paths: {paths}. "
+        "Values: tables below.",
+        "Error of each scheme along each path; the thin line has theory's slope. Brackets: 95 % interval of the fitted "
+        "order. Numbers above a panel: particles N.")]
+
 
 def error_figure(study, styles):
     """Max-norm error at T against the theory's variable, a panel per path; None if the study has no series."""
@@ -172,11 +143,22 @@ def _legend_text(series, name, room):
 
 # ----------------------------------------------------------------------------------------- error against run time
 
+def cost_drawing(studies, styles):
+    """The cost figure, or None."""
+    figure = cost_figure(studies, styles)
+    return figure and Drawing(
+        "cost", "Error against run time", figure,
+        "Log-log plot of the max-norm error against the run time of every scheme, a panel per path. "
+        "Values: tables above.",
+        "Run time of the whole time loop: median of the repeats, bars from the fastest to the slowest. Comparable only "
+        "between runs of one machine. Series run by several studies are drawn once.")
+
+
 def cost_curves(studies):
     """Each series once, though several studies may have run it; of such doubles, the first with the most cases."""
     curves = {}
     for study in studies:
-        for series in study.series:
+        for series in study.series if study.kind == CONVERGENCE else ():
             key = (series.scheme, series.path, series.delta_text, series.source, series.step_text,
                    series.integrator, astuple(study.scene))
             if key not in curves or len(series.cases) > len(curves[key][1].cases):
@@ -275,8 +257,7 @@ def _frames(count, above, below, foot=0.0):
     # Panels that share both axes name the lower one below the last row alone.
     row = above + height + (0.0 if foot else label + below)
     total = rows * row + (label + foot if foot else 0.1)
-    figure = Figure(figsize=(WIDTH, total))
-    FigureCanvasAgg(figure)
+    figure = blank(total)
     frames = []
     for i in range(count):
         x = left + (i % columns) * (width + gap)

@@ -16,7 +16,7 @@ def scheme_names(schemes):
         mus.setdefault((scheme.model, scheme.kernel), set()).add(scheme.mu)
     written = {}
     for scheme in schemes:
-        parts = ["Model " + {1: "I", 2: "II"}.get(scheme.model, str(scheme.model))]
+        parts = [model(scheme)]
         several_alphas = len(alphas[scheme.model, scheme.kernel]) > 1
         if len(kernels[scheme.model]) > 1 or several_alphas:
             alpha = f" (α = {scheme.alpha:.4g})" if scheme.alpha is not None else ""
@@ -27,6 +27,17 @@ def scheme_names(schemes):
             parts.append(f"μ = {scheme.mu:.4g}" if scheme.mu is not None else "no μ")
         written[scheme] = ", ".join(parts)
     return written
+
+
+def full_name(scheme):
+    """All of a scheme but its viscosity, as findings name their subject."""
+    kernel = scheme.kernel + (f"({scheme.alpha:g})" if scheme.alpha is not None else "")
+    divergence = f"{scheme.divergence} divergence" if scheme.divergence else ""
+    return ", ".join(filter(None, (model(scheme), divergence, kernel)))
+
+
+def model(scheme):
+    return "Model " + {1: "I", 2: "II"}.get(scheme.model, str(scheme.model))
 
 
 def order(value, form="{:.2f}"):

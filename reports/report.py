@@ -39,7 +39,9 @@ def main(arguments=None):
 
 
 def report(folder, files):
-    """Draws every figure of the result files and the page into `folder`; the path of the page."""
+    """Draws every figure of the result files and the pages into `folder`; the path of the first page."""
+    import claims
+    import drawing
     import figures
     import page
     import results
@@ -47,17 +49,16 @@ def report(folder, files):
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
     styles = figures.scheme_styles(studies)
-    drawn = []
-    for study in studies:
-        figure = figures.error_figure(study, styles)
-        if figure is not None:
-            _write_images(folder, study.name, figures.render(figure, study.title))
-            drawn.append(study.name)
-    cost = figures.cost_figure(studies, styles)
-    if cost is not None:
-        _write_images(folder, "cost", figures.render(cost, "Error against run time"))
+    drawings = {}
+    for study, drawn in zip((*studies, None), drawing.of_all(studies, styles)):
+        for one in drawn:
+            for kind, content in one.files.items():
+                _write(folder / f"{one.stem}.{kind}", content)
+        drawings[study.name if study else "cost"] = drawn
+    cost = next(iter(drawings.pop("cost")), None)
     index = folder / "index.html"
-    _write(index, page.html(studies, drawn, cost is not None).encode("utf-8"))
+    _write(index, page.html(studies, drawings, cost).encode("utf-8"))
+    _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
     return index
 
 
@@ -99,11 +100,6 @@ def _refuse_clashes(studies):
         if study.name in seen:
             raise UsageError(f'{study.file}: study = "{study.name}" is also in {seen[study.name]}; name one of them')
         seen[study.name] = study.file
-
-
-def _write_images(folder, stem, images):
-    for kind, content in images.items():
-        _write(folder / f"{stem}.{kind}", content)
 
 
 def _write(path, content):

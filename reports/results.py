@@ -1,4 +1,4 @@
-"""Result files of acstudy, read into plain records: Study > Series > one array entry per case.
+"""Result files of acstudy, read into plain records: Study > Series > an array entry per case; Study > Finding > points.
 
 Reading only: nothing here computes, draws or writes. The layout is the format "acstudy-1" that `acstudy run` writes.
 """
@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 
 FORMAT = "acstudy-1"
+CONVERGENCE = "convergence"
 
 
 class ResultError(Exception):
@@ -96,15 +97,70 @@ class Series:
 
 
 @dataclass(frozen=True)
+class Points:
+    """The measured values of a finding: every member is an array [n]. NaN, and 0 for N: does not apply."""
+    N: np.ndarray
+    h: np.ndarray
+    delta: np.ndarray
+    variable: np.ndarray        # what the order is in, or what the value is drawn over
+    value: np.ndarray
+    lower: np.ndarray           # bounds of the value; infinite where there is none
+    upper: np.ndarray
+    label: tuple = ()           # what each value is of, where that is no number; else empty
+
+    def __len__(self):
+        return len(self.value)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One statement of theory, what was measured, and whether the two agree. NaN: not available."""
+    statement: str
+    claim: str
+    subject: str
+    check: str
+    quantity: str
+    variable: str       # name of the points' variable
+    remark: str         # may be empty
+    test: str           # "order": vanishes with theory's order; "bounds": every value within [lower, upper]; ...
+    theory_order: float
+    observed_order: float
+    observed_low: float
+    observed_high: float
+    extrapolated_order: float
+    verdict: str
+    promised: str       # the verdict if the statement is true
+    expected: str       # the verdict that the study demands; another than promised for a negative control
+    also_expected: tuple
+    as_expected: bool
+    alarm: bool         # the statement does not hold of the subject, expected or not
+    reason: str
+    points: Points
+    fit: dict           # of a surface A h^p + B delta^q: A, B, p, p_low, ..., rms; empty for the other tests
+
+    @property
+    def control(self):
+        """Whether a failure is demanded here, to show that the measurement can see one."""
+        return self.expected != self.promised or self.promised in ("violated", "stagnates")
+
+
+@dataclass(frozen=True)
 class Study:
     """One result file."""
     file: Path
     name: str
     title: str
+    kind: str           # "convergence": judged by its series; every other kind by its findings
     text: str           # the study file, whole
     provenance: dict    # name -> text, in alphabetic order
-    scene: Scene
+    scene: Scene        # None: the study has none
     series: tuple
+    findings: tuple
+
+    @property
+    def judged(self):
+        """What the gate judges: the series of a convergence study, the findings of any other."""
+        return self.series if self.kind == CONVERGENCE else self.findings
 
 
 def read_study(path):
@@ -135,14 +191,18 @@ def _study(path, file):
         raise ResultError(f'{path}: study = "{name}"; a study is named by [a-z0-9-]+; rename it and run it again')
     provenance = file["provenance"]
     series = file["series"] if "series" in file else {}
+    findings = file["findings"] if "findings" in file else {}
+    kind = _text(file, "kind", CONVERGENCE)
     return Study(
         file=path,
         name=name,
         title=_text(file, "title"),
+        kind=kind,
         text=_text(file, "study_text", ""),
         provenance={key: _text(provenance, key) for key in sorted(provenance.attrs)},
-        scene=_scene(file["scene"]),
-        series=tuple(_series(series[key]) for key in sorted(series)))
+        scene=_scene(file["scene"]) if "scene" in file or kind == CONVERGENCE else None,
+        series=tuple(_series(series[key]) for key in sorted(series)),
+        findings=tuple(_finding(findings[key]) for key in sorted(findings)))
 
 
 def _scene(group):
@@ -168,28 +228,54 @@ def _series(group):
                   **{name: _number(group, f"observed_{stored}", math.nan) for name, stored in later.items()})
 
 
+def _finding(group):
+    texts = ("statement", "claim", "subject", "check", "quantity", "test", "promised", "expected", "verdict", "reason")
+    numbers = ("theory_order", "observed_order", "observed_low", "observed_high", "extrapolated_order")
+    points = _columns(group, Points, {"N"}, without={"label"})
+    labels = tuple(_text(group, "labels", "").splitlines())
+    if labels and len(labels) != len(points["N"]):
+        raise ValueError(f"{group.name}: {len(labels)} labels, but {len(points['N'])} points")
+    return Finding(
+        **{name: _text(group, name) for name in texts},
+        **{name: _number(group, name) for name in numbers},
+        **{name: bool(_number(group, name)) for name in ("as_expected", "alarm")},
+        variable=_text(group, "variable_name"),
+        remark=_text(group, "remark", ""),
+        also_expected=tuple(_text(group, "also_expected", "").split()),
+        points=Points(**points, label=labels),
+        fit={name.removeprefix("surface_"): _number(group, name) for name in sorted(group.attrs)
+             if name.startswith("surface_")})
+
+
 def _cases(group):
-    integers = ("N", "steps", "repeats", "work_pairs", "work_weight_builds", "work_quadrature_points")
+    integers = {"N", "steps", "repeats", "work_pairs", "work_weight_builds", "work_quadrature_points"}
+    return Cases(**_columns(group, Cases, integers, between={"pairwise"}))
+
+
+def _columns(group, record, integers, between=frozenset(), without=frozenset()):
+    """The data sets named as the fields of `record`, all as long as N; one shorter those `between` two entries."""
     arrays = {}
-    for name in Cases.__dataclass_fields__:
-        if name not in group:
-            raise KeyError(f"{group.name}: no dataset {name}")
-        values = np.atleast_1d(group[name][()])
+    for name in (name for name in record.__dataclass_fields__ if name not in without):
+        try:
+            values = np.atleast_1d(group[name][()])
+        except KeyError:
+            raise KeyError(f"{group.name}: no dataset {name}") from None
         arrays[name] = values.astype(np.int64 if name in integers else float)
     n = len(arrays["N"])
     for name, values in arrays.items():
-        expected = max(n - 1, 0) if name == "pairwise" else n
+        expected = max(n - 1, 0) if name in between else n
         if values.shape != (expected,):
-            raise ValueError(f"{group.name}/{name}: shape {values.shape}, but {expected} entries belong to {n} cases")
-    return Cases(**arrays)
+            raise ValueError(f"{group.name}/{name}: shape {values.shape}, but {expected} entries belong to N of {n}")
+    return arrays
 
 
 def _attribute(group, name, default):
-    if name in group.attrs:
+    try:    # asking first whether it is there would take as long again
         return group.attrs[name]
-    if default is None:
-        raise KeyError(f"{group.name}: no attribute {name}")
-    return default
+    except KeyError:
+        if default is None:
+            raise KeyError(f"{group.name}: no attribute {name}") from None
+        return default
 
 
 def _text(group, name, default=None):

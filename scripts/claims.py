@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the claims as a Markdown table, from result files: python3 scripts/claims.py [OUT_DIR]
 
-A row per theorem, scheme and study; paths, observed orders and verdicts in the same sequence.
+A row per theorem, scheme and convergence study; paths, observed orders and verdicts in the same sequence.
 Exit codes: 0 done; 1 a series departs from what its study expects (its row says so); 2 no result file, or not one.
 """
 
@@ -26,7 +26,8 @@ def main(arguments):
     for file in files:
         try:
             study = json.loads(file.read_text(encoding="utf-8"))
-            for series in study["series"]:
+            # A study that is judged by findings is on the report's page of claims.
+            for series in study["series"] if study.get("kind", "convergence") == "convergence" else ():
                 claims.setdefault(claim(study, series, folder), []).append(series)
             rows = [row(key, claims[key]) for key in sorted(claims)]
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:

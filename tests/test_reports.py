@@ -1,93 +1,28 @@
 """The report on small synthetic result files: it shows everything, hides nothing, and stops cleanly at bad input."""
 
-import contextlib
-import io
 import math
 from pathlib import Path
 import subprocess
 import sys
-import tempfile
 import unittest
-import warnings
 from xml.etree import ElementTree
 
 import h5py
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "reports"))
+from tests.result_files import ROOT, ReportTest, series, write
 
 import axes
 import figures
+import look
 import names
 import page
-import report
 import results
 import svg
 
 
-def series(**changes):
-    """A confirmed first-order series of format acstudy-1 as {name: value}; arrays are data sets, others attributes."""
-    N = np.array(changes.pop("N", (160, 320, 640, 1280)))
-    h = 2 * math.pi / N
-    error = np.array(changes.pop("error_linf", 1.3 * h))
-    ones = np.ones(len(N), dtype=np.int64)
-    with np.errstate(all="ignore"):
-        pairwise = np.log(error[:-1] / error[1:]) / np.log(h[:-1] / h[1:])
-    values = dict(
-        model=1, divergence="local", kernel="inverse", path="delta = 4h", source="local", delta_text="4*h",
-        step_text="h/4", integrator="forward-euler", motion="moving", theory_variable="max(h,delta)", theory_order=1.0,
-        theory_statement="Theorem 2.7 (2)", observed_order=0.97, observed_low=0.95, observed_high=1.01,
-        extrapolated_order=math.nan, verdict="confirmed", expected="confirmed", as_expected=1,
-        reason="theory's order lies in the interval",
-        N=N, h=h, delta=4 * h, dt=h / 4, steps=4 * N, variable=4 * h, error_linf=error, error_l1=error / 3,
-        error_l2=error / 2, seconds=1e-5 * N, seconds_low=0.9e-5 * N, seconds_high=1.2e-5 * N, repeats=5 * ones,
-        source_seconds=1e-6 * N, work_pairs=1000 * N, work_weight_builds=N, work_quadrature_points=0 * N,
-        work_velocity_evaluations=N, pairwise=pairwise)
-    return values | changes
-
-
-def write(folder, name, *all_series, title="A study", fixed_length=False, **root):
-    """A result file <name>.h5 of the series; `fixed_length`: text attributes as numpy bytes, as C++ may write them."""
-    path = Path(folder) / f"{name}.h5"
-    text = np.bytes_ if fixed_length else str
-    with h5py.File(path, "w") as file:
-        attributes = dict(format="acstudy-1", study=name, title=title, study_text=f'[study]\nname = "{name}"\n') | root
-        for key, value in attributes.items():
-            file.attrs[key] = text(value)
-        file.create_group("provenance").attrs.update(version="0.1.0", created="2025-01-01T00:00:00Z")
-        file.create_group("scene").attrs.update(name="lee-du-2019", period=2 * math.pi, T=1.0, c="cos(2*x)/3",
-                                                u="cos(x-t)", b="sin(x)")
-        for i, values in enumerate(all_series):
-            group = file.create_group(f"series/{i:03d}")
-            for key, value in values.items():
-                if isinstance(value, np.ndarray):
-                    group[key] = value
-                else:
-                    group.attrs[key] = text(value) if isinstance(value, str) else value
-    return path
-
-
-class ReportTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def run_report(self, *arguments):
-        """(exit code, stdout, stderr) of the program."""
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), warnings.catch_warnings():
-            # unittest turns on the warnings that matplotlib's parser gives to its own developers.
-            warnings.simplefilter("ignore")
-            try:
-                code = report.main([str(argument) for argument in arguments])
-            except SystemExit as stop:
-                code = stop.code
-        return code, out.getvalue(), err.getvalue()
-
-    def images(self, study):
-        return figures.render(figures.error_figure(study, figures.scheme_styles([study])), study.title)
+def images(study):
+    return look.render(figures.error_figure(study, figures.scheme_styles([study])), study.title)
 
 
 class Reading(ReportTest):
@@ -163,20 +98,20 @@ class Page(ReportTest):
         departing = series(path="delta = h^2", verdict="below", as_expected=0, observed_order=0.5)
         control = series(path="delta = 0.2", verdict="stagnates", expected="stagnates")
         study = results.read_study(write(self.folder, "fig1", series(), departing, control))
-        html = page.html([study], [], cost=False)
+        html = page.html([study], {})
         self.assertIn("1 of 3 series not as expected", html)
         self.assertEqual(html.count('<tr class="departs">'), 1)
         self.assertEqual(html.count('<article class="departs">'), 1)
         self.assertIn("<strong>no</strong>, expected confirmed", html)
         self.assertIn('<span class="badge bad">below</span>', html)
         self.assertIn('<span class="badge control">stagnates</span>', html)
-        self.assertIn("below, expected confirmed", self.images(study)["svg"].decode())
+        self.assertIn("below, expected confirmed", images(study)["svg"].decode())
 
     def test_numbers_and_what_is_not_a_number(self):
         broken = series(error_linf=[0.0512, math.nan, math.inf, 0.00321], observed_order=math.nan,
                         observed_low=math.nan, observed_high=math.nan, verdict="unstable", expected="unstable",
                         work_pairs=np.array([1, 1000, 1234567, 10**12]))
-        html = page.html([results.read_study(write(self.folder, "fig1", broken))], ["fig1"], cost=False)
+        html = page.html([results.read_study(write(self.folder, "fig1", broken))], {})
         for text in ("5.120e-02", ">nan<", ">inf<", "1\u202f234\u202f567", "[–, –]", "Δ<var>t</var>"):
             self.assertIn(text, html)
 
@@ -191,7 +126,7 @@ class Page(ReportTest):
 class Figures(ReportTest):
     def test_the_same_file_gives_the_same_bytes(self):
         path = write(self.folder, "fig1", series(), series(divergence="nonlocal"), series(path="delta = sqrt(h)"))
-        first, second = (self.images(results.read_study(path)) for _ in range(2))
+        first, second = (images(results.read_study(path)) for _ in range(2))
         self.assertEqual(first, second)
         self.assertNotIn("<dc:date>", first["svg"].decode())
 
@@ -202,19 +137,19 @@ class Figures(ReportTest):
         short = series(path="delta = h^3", N=(160,))
         none = series(path="delta = h^4", N=())
         study = results.read_study(write(self.folder, "fig1", mixed, lost, zero, short, none))
-        text = self.images(study)["svg"].decode()
+        text = images(study)["svg"].decode()
         for note in ("2 of 4 levels not finite", "4 of 4 levels not finite", "1 of 4 levels zero"):
             self.assertIn(note, text)
         self.assertIsNotNone(figures.cost_figure([study], figures.scheme_styles([study])))
         alone = results.read_study(write(self.folder, "fig2", lost))
-        self.assertIn("4 of 4 levels not finite", self.images(alone)["svg"].decode())
-        self.assertIn("nan", page.html([study], ["fig1"], cost=True))
+        self.assertIn("4 of 4 levels not finite", images(alone)["svg"].decode())
+        self.assertIn("nan", page.html([study], {}))
 
     def test_a_study_without_series_has_no_figure(self):
         study = results.read_study(write(self.folder, "fig1"))
         self.assertIsNone(figures.error_figure(study, {}))
         self.assertIsNone(figures.cost_figure([study], {}))
-        self.assertIn("No series has been run", page.html([study], [], cost=False))
+        self.assertIn("No series has been run", page.html([study], {}))
 
     def test_series_run_by_several_studies_are_drawn_once(self):
         studies = [results.read_study(path) for path in (
@@ -223,7 +158,7 @@ class Figures(ReportTest):
         chosen = figures.cost_curves(studies)
         self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
                          [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
-        text = figures.render(figures.cost_figure(studies, figures.scheme_styles(studies)), "cost")["svg"].decode()
+        text = look.render(figures.cost_figure(studies, figures.scheme_styles(studies)), "cost")["svg"].decode()
         for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
                      "Model I, nonlocal divergence"):
             self.assertEqual(text.count(f">{name}<"), 1, name)
@@ -273,7 +208,7 @@ class Figures(ReportTest):
 
     def test_a_figure_brings_its_fonts_along_and_keeps_its_text(self):
         study = results.read_study(write(self.folder, "fig1", series()))
-        text = self.images(study)["svg"].decode()
+        text = images(study)["svg"].decode()
         ElementTree.fromstring(text)
         self.assertEqual(text.count("@font-face{font-family:STIXGeneral"), 2)
         self.assertIn(">order 0.97 [0.95, 1.01], theory 1<", text)

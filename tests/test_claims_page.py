@@ -1,0 +1,178 @@
+"""The page of claims, and findings on the first page: every statement in its place, nothing that departs hidden."""
+
+import json
+import math
+import subprocess
+import sys
+import unittest
+
+import h5py
+import numpy as np
+
+from tests.result_files import ROOT, ReportTest, finding, series, write
+
+import claims
+import findings
+import page
+import results
+
+
+def read(folder, name="ledger", *all_series, **more):
+    return results.read_study(write(folder, name, *all_series, **more))
+
+
+class Reading(ReportTest):
+    def test_findings_are_read_with_their_points(self):
+        one = finding(N=(0, 80), value=[1.0, math.nan], lower=-2.0, test="bounds", labels="space\ntime\n",
+                      also_expected="floor below")
+        for fixed_length in (False, True):
+            study = read(self.folder, kind="pollution", findings=[one], fixed_length=fixed_length, scene=False)
+            found = study.findings[0]
+            self.assertEqual((study.kind, study.scene, study.judged), ("pollution", None, study.findings))
+            self.assertEqual(found.points.label, ("space", "time"))
+            self.assertEqual(found.also_expected, ("floor", "below"))
+            np.testing.assert_array_equal(found.points.lower, [-2.0, -2.0])
+            self.assertTrue(math.isnan(found.points.value[1]) and math.isinf(found.points.upper[0]))
+
+    def test_a_file_without_kind_and_findings_is_a_convergence_study(self):
+        path = write(self.folder, "old", series())
+        with h5py.File(path) as file:
+            self.assertNotIn("kind", file.attrs)
+            self.assertNotIn("findings", file)
+        study = results.read_study(path)
+        self.assertEqual((study.kind, study.findings, study.judged), ("convergence", (), study.series))
+
+    def test_a_damaged_finding_is_refused(self):
+        lacking, ragged, mislabeled = finding(), finding(value=[1.0, 2.0]), finding(labels="one\n")
+        del lacking["promised"]
+        for name, one, said in (("lacking", lacking, "no attribute promised"), ("ragged", ragged, "shape (2,)"),
+                                ("mislabeled", mislabeled, "1 labels, but 4 points")):
+            path = write(self.folder, name, kind="consistency", findings=[one])
+            with self.subTest(name), self.assertRaisesRegex(results.ResultError, said.replace("(", r"\(").replace(
+                    ")", r"\)")):
+                results.read_study(path)
+
+
+class Ledger(ReportTest):
+    def test_statements_stand_in_the_order_of_the_paper_and_others_after_them(self):
+        told = ("error budget", "Theorem 2.7 (2)", "Lemma 3.2, D", "Lemma 3.2, A", "(2.3)", "Theorem 2.7 (1), (2)",
+                "Remark 2.1", "(3.4)", "Lemma 3.1", "Lemma 2.3")
+        study = read(self.folder, kind="consistency", findings=[finding(statement=one) for one in told])
+        of_paper, further = findings.ledger([study])
+        self.assertEqual([one.name for one in of_paper],
+                         ["(2.3)", "Remark 2.1", "Lemma 2.3", "Theorem 2.7 (1), (2)", "Theorem 2.7 (2)", "Lemma 3.1",
+                          "(3.4)", "Lemma 3.2, A", "Lemma 3.2, D"])
+        self.assertEqual([one.name for one in further], ["error budget"])
+
+    def test_series_and_findings_of_one_statement_share_a_row(self):
+        settles = series(path="delta = 0.2", verdict="stagnates", expected="stagnates", theory_order=0.0,
+                         theory_statement="Theorem 2.7 (2): the limit is another")
+        studies = [read(self.folder, "fig2", series(), settles),
+                   read(self.folder, "map", kind="map", findings=[finding(statement="Theorem 2.7 (2)")])]
+        (statement,), _ = findings.ledger(studies)
+        self.assertEqual((len(statement.entries), len(statement.tested), len(statement.controls)), (3, 2, 1))
+        self.assertEqual(statement.worst.verdict, "confirmed")
+
+    def test_the_worst_is_what_departs_else_the_least_certain_else_the_nearest_to_its_bound(self):
+        def worst(*found):
+            (statement,), _ = findings.ledger([read(self.folder, kind="stability", findings=found)])
+            return statement.worst.subject
+
+        near = finding(subject="near", test="bounds", value=[0.1, 0.9, 0.2, 0.3], upper=1.0)
+        far = finding(subject="far", test="bounds", value=[0.1, 0.4, 0.2, 0.3], upper=1.0)
+        unsure = finding(subject="unsure", verdict="pre-asymptotic")
+        departing = finding(subject="departing", test="bounds", value=[2.0] * 4, upper=1.0, verdict="violated",
+                            as_expected=0, alarm=1)
+        control = finding(subject="control", test="bounds", value=[9.0] * 4, upper=1.0, verdict="violated",
+                          expected="violated", alarm=1)
+        self.assertEqual(worst(far, near, control), "near")
+        self.assertEqual(worst(unsure, near, control), "unsure")
+        self.assertEqual(worst(far, departing, unsure, control), "departing")
+
+    def test_a_value_that_is_no_number_is_the_worst(self):
+        points = read(self.folder, kind="stability", findings=[
+            finding(test="bounds", value=[0.1, math.nan, 0.9, 0.2], upper=1.0)]).findings[0].points
+        self.assertEqual(findings.closest(points), (1, -math.inf))
+
+    def test_wrong_schemes_and_synthetic_series_are_no_evidence(self):
+        studies = [read(self.folder, kind, kind=kind, findings=[finding()]) for kind in ("controls", "corpus")]
+        self.assertEqual(findings.ledger(studies), ([], []))
+
+
+class Pages(ReportTest):
+    def html(self, *studies):
+        return claims.html(studies, {})
+
+    def test_a_departure_stands_out_on_both_pages(self):
+        bad = finding(verdict="below", as_expected=0, alarm=1, reason="pairwise orders <0.5>", observed_order=0.5,
+                      observed_low=0.4, observed_high=0.6)
+        study = read(self.folder, kind="consistency", findings=[finding(check="moved, delta = 4h"), bad])
+        html = self.html(study)
+        self.assertIn("1 of 2 results not as expected", html)
+        self.assertIn("<strong>1 of 2 not</strong>", html)
+        self.assertIn('<tr class="departs"><th scope="row"><a href="#claim-Lemma-2-5">', html)
+        self.assertIn('<details id="claim-Lemma-2-5" open>', html)
+        self.assertIn('<span class="badge bad">below</span>', html)
+        self.assertIn("pairwise orders &lt;0.5&gt;", html)
+        self.assertIn("lowest order 0.50 [0.40, 0.60]", html)
+        self.assertIn("highest order 0.98", html)
+        index = page.html([study], {})
+        self.assertIn("1 of 2 findings not as expected", index)
+        self.assertLess(index.index("pairwise orders &lt;0.5&gt;"), index.index("<summary>Every finding"))
+
+    def test_a_negative_control_is_no_alarm_unless_it_holds(self):
+        caught = finding(verdict="violated", promised="holds", expected="violated", alarm=1, test="bounds",
+                         value=[2] * 4, upper=1.0)
+        missed = caught | dict(verdict="holds", as_expected=0, alarm=0, check="moved")
+        html = self.html(read(self.folder, kind="stability", findings=[finding(), caught]))
+        self.assertIn("All 2 results are as expected", html)
+        self.assertIn("negative controls: 1 of 1 fail as they must", html)
+        self.assertIn('<span class="badge control">violated</span>', html)
+        self.assertNotIn('class="departs"', html)
+        html = self.html(read(self.folder, kind="stability", findings=[finding(), caught, missed]))
+        self.assertIn("negative controls: 1 of 2 fail as they must", html)
+        self.assertIn('<span class="badge bad">holds</span>', html)
+
+    def test_pages_link_to_each_other_and_to_figures_that_exist(self):
+        write(self.folder, "fig2", series())
+        write(self.folder, "consistency", kind="consistency", findings=[finding()])
+        self.assertEqual(self.run_report(self.folder)[0], 0)
+        index, html = ((self.folder / name).read_text(encoding="utf-8") for name in ("index.html", "claims.html"))
+        self.assertIn('href="claims.html"', index)
+        self.assertIn('href="index.html"', html)
+        self.assertIn('href="index.html#consistency.lemma-2-5.figure"', html)
+        self.assertIn('id="consistency.lemma-2-5.figure"', index)
+        self.assertIn('href="index.html#fig2.figure"', html)
+        self.assertIn("All 1 series and 1 findings are as expected", index)
+        self.assertTrue((self.folder / "consistency.lemma-2-5.svg").is_file())
+        self.assertEqual((self.folder / "consistency.png").exists(), False)
+        for text in (index, html):
+            self.assertNotIn("<script", text)
+
+    def test_synthetic_series_are_listed_with_right_and_given_verdict(self):
+        right = finding(statement="corpus", subject="drift", claim="it <drifts>", verdict="below", expected="below",
+                        promised="below", also_expected="inconclusive")
+        wrong = right | dict(subject="noise", verdict="confirmed", as_expected=0)
+        study = read(self.folder, "corpus", kind="corpus", findings=[right, wrong])
+        index = page.html([study], {})
+        self.assertIn("<td>below or inconclusive</td>", index)
+        self.assertIn("it &lt;drifts&gt;", index)
+        self.assertEqual(index.count('<tr class="departs"><th scope="row">noise</th>'), 1)
+        self.assertIn("1 of 2 synthetic series of known order get the right verdict", self.html(study))
+
+
+class Table(ReportTest):
+    def test_the_table_of_theorems_passes_over_studies_that_are_judged_by_findings(self):
+        for kind in ("corpus", "map"):
+            (self.folder / f"{kind}.json").write_text(json.dumps({"study": kind, "kind": kind, "findings": []}))
+        done = subprocess.run([sys.executable, "scripts/claims.py", str(self.folder)], cwd=ROOT, text=True,
+                              capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stderr, done.stdout.count("\n")), (0, "", 2))
+        (self.folder / "fig1.json").write_text(json.dumps({"study": "fig1", "findings": []}))
+        done = subprocess.run([sys.executable, "scripts/claims.py", str(self.folder)], cwd=ROOT, text=True,
+                              capture_output=True, check=False)
+        self.assertEqual(done.returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

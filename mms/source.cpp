@@ -231,7 +231,8 @@ std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel&
                                          viscous_rule(model.kernel, points));
 }
 
-std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, SourceRule rule) {
+std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, SourceRule rule,
+                                        std::size_t refinement) {
   if (rule != SourceRule::gauss) return std::make_unique<AdaptiveSource>(scene, model, rule);
   // Between 1e-14, the round-off of the sums, and 1e-13, what the fixed rule promises; for a field of very short waves
   // what round-off in its argument leaves, which two fine rules show.
@@ -243,7 +244,8 @@ std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel&
     const double tolerance = std::max(promised, 2.0 * round_off);
     for (std::size_t points = 2; points <= most; ++points) {
       auto source = nonlocal_source(scene, model, points);
-      if (disagreement(scene, *source, *reference) <= tolerance) return nonlocal_source(scene, model, points);
+      if (disagreement(scene, *source, *reference) <= tolerance)
+        return nonlocal_source(scene, model, refinement * points);
     }
   }
   throw std::domain_error(

@@ -43,9 +43,10 @@ std::unique_ptr<Source> local_source(const Scene& scene);
 ///
 /// Each nonlocal derivative is the average of a local one over the horizon, by the Gauss rule of the kernel's own
 /// weight (see `derivative_rule`), with the fewest points that agree with a much finer rule to round-off on this scene.
+/// @param refinement  how many times these points the Gauss rule gets, to see what its error is
 /// @throws std::domain_error if no rule of up to 40 points does: the fields are too rough at this horizon
 std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model,
-                                        SourceRule rule = SourceRule::gauss);
+                                        SourceRule rule = SourceRule::gauss, std::size_t refinement = 1);
 
 /// The same with a given number of Gauss points.
 std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, std::size_t points);

@@ -25,7 +25,8 @@ Judgement judge_bounds(const std::vector<Point>& points) {
   const auto worst = std::min_element(points.begin(), points.end(), worse);
   if (worst == points.end()) return judgement;
   judgement.verdict = within(*worst) ? Verdict::holds : Verdict::violated;
-  const std::string where = (worst->N > 0 ? fmt::format(", N = {}", worst->N) : "") +
+  const std::string where = (worst->label.empty() ? "" : ", " + worst->label) +
+                            (worst->N > 0 ? fmt::format(", N = {}", worst->N) : "") +
                             (std::isnan(worst->delta) ? "" : fmt::format(", delta = {:.3g}", worst->delta));
   const std::string demanded = std::isinf(worst->lower) ? fmt::format("at most {:.6g}", worst->upper)
                                : std::isinf(worst->upper)
@@ -38,10 +39,22 @@ Judgement judge_bounds(const std::vector<Point>& points) {
 
 }  // namespace
 
-std::string_view name_of(Test test) { return test == Test::order ? "order" : test == Test::rate ? "rate" : "bounds"; }
+std::string_view name_of(Test test) {
+  switch (test) {
+    case Test::order:
+      return "order";
+    case Test::rate:
+      return "rate";
+    case Test::bounds:
+      return "bounds";
+    case Test::surface:
+      return "surface";
+  }
+  return "";
+}
 
 std::optional<Test> test_from(std::string_view name) {
-  for (const Test test : {Test::order, Test::rate, Test::bounds}) {
+  for (const Test test : {Test::order, Test::rate, Test::bounds, Test::surface}) {
     if (name_of(test) == name) return test;
   }
   return std::nullopt;
@@ -50,6 +63,13 @@ std::optional<Test> test_from(std::string_view name) {
 void judge(Finding& finding) {
   if (finding.test == Test::bounds) {
     finding.judgement = judge_bounds(finding.points);
+    return;
+  }
+  if (finding.test == Test::surface) {
+    std::vector<SurfacePoint> points;
+    for (const Point& point : finding.points) points.push_back({point.h, point.delta, point.value});
+    finding.surface = fit_surface(points);
+    finding.judgement = judge_surface(points, finding.theory_order);
     return;
   }
   std::vector<Level> levels;

@@ -12,14 +12,16 @@
 #include <vector>
 
 #include "reports/orders.hpp"
+#include "reports/surface.hpp"
 
 namespace acstudy {
 
 /// How the points of a finding are judged.
 enum class Test {
-  order,   ///< the values vanish with theory's order in `variable`
-  rate,    ///< they vanish with at least that order: verdict `holds`, or that of the order that they have
-  bounds,  ///< every value lies within [lower, upper]: verdict `holds` or `violated`
+  order,    ///< the values vanish with theory's order in `variable`
+  rate,     ///< they vanish with at least that order: verdict `holds`, or that of the order that they have
+  bounds,   ///< every value lies within [lower, upper]: verdict `holds` or `violated`
+  surface,  ///< the values vanish with theory's order in h and in delta, however the two go to zero
 };
 
 std::string_view name_of(Test test);
@@ -33,6 +35,7 @@ struct Point {
   double value = std::numeric_limits<double>::quiet_NaN();
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
+  std::string label;  ///< what the value is, where a finding has values of several sorts
 };
 
 struct Finding {
@@ -43,14 +46,15 @@ struct Finding {
   std::string quantity;   ///< what the values are: "max |rate + f - du/dt|"
   Test test;
   std::string variable;                ///< name of `Point::variable`: "h"
-  double theory_order = 0.0;           ///< of Test::order and Test::rate
+  double theory_order = 0.0;           ///< of every test but Test::bounds
   Verdict promised;                    ///< the verdict if the statement is true
   Verdict expected;                    ///< the verdict that the study demands: another one for a negative control
   std::vector<Verdict> also_expected;  ///< verdicts that are as right as the expected one
   std::vector<Point> points;
   std::string remark;  ///< what a reader must know besides; may be empty
 
-  Judgement judgement;  ///< set by judge()
+  Judgement judgement;                ///< set by judge()
+  std::optional<SurfaceFit> surface;  ///< set by judge() for Test::surface, where the values allow it
 
   std::string label() const { return statement + ": " + subject + "; " + check; }
   bool as_expected() const {

@@ -83,6 +83,24 @@ json series_json(const Study& study, const SeriesResult& result) {
   return out;
 }
 
+json surface_json(const SurfaceFit& fit) {
+  const auto order = [](const FittedOrder& o) {
+    return json{{"value", number(o.value)}, {"low", number(o.low)}, {"high", number(o.high)}};
+  };
+  return {{"A", number(fit.A)},
+          {"B", number(fit.B)},
+          {"p", order(fit.p)},
+          {"q", order(fit.q)},
+          {"h_correction", number(fit.h_correction)},
+          {"delta_correction", number(fit.delta_correction)},
+          {"sharpness", number(fit.sharpness)},
+          {"rms", number(fit.rms)},
+          {"bic", number(fit.bic)},
+          {"bic_h", number(fit.bic_h)},
+          {"bic_delta", number(fit.bic_delta)},
+          {"bic_sum", number(fit.bic_sum)}};
+}
+
 json finding_json(const Finding& finding) {
   const Judgement& judgement = finding.judgement;
   json out = {{"statement", finding.statement}, {"claim", finding.claim},       {"subject", finding.subject},
@@ -93,6 +111,7 @@ json finding_json(const Finding& finding) {
     out["theory_order"] = finding.theory_order;
     out["observed"] = observed_json(judgement);
   }
+  if (finding.surface) out["surface"] = surface_json(*finding.surface);
   out["verdict"] = name_of(judgement.verdict);
   out["promised"] = name_of(finding.promised);
   out["expected"] = name_of(finding.expected);
@@ -107,6 +126,7 @@ json finding_json(const Finding& finding) {
                 {"delta", number(point.delta)},
                 {"variable", number(point.variable)},
                 {"value", number(point.value)}};
+    if (!point.label.empty()) one["label"] = point.label;
     if (finding.test == Test::bounds) {
       one["lower"] = number(point.lower);
       one["upper"] = number(point.upper);
@@ -156,7 +176,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   const auto test = test_from(one.at("test").get<std::string>());
   if (!test) throw InputError("unknown test " + one.at("test").dump() + " in the result file");
   finding.test = *test;
-  finding.theory_order = finding.test != Test::bounds ? real(one.at("theory_order")) : 0.0;
+  finding.theory_order = finding.test == Test::bounds ? 0.0 : real(one.at("theory_order"));
   finding.promised = verdict(one.at("promised"));
   finding.expected = verdict(one.at("expected"));
   for (const json& also : one.value("also_expected", json::array())) finding.also_expected.push_back(verdict(also));
@@ -167,6 +187,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
     p.delta = real(point.at("delta"));
     p.variable = real(point.at("variable"));
     p.value = real(point.at("value"));
+    p.label = point.value("label", "");
     if (finding.test == Test::bounds) {
       // A bound that is not there is no number in the file.
       if (!point.at("lower").is_null()) p.lower = real(point.at("lower"));

@@ -15,7 +15,8 @@ namespace {
 template <class Motion>
 CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
   const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
-  const auto source = make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule);
+  const auto source =
+      make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule, c.source_refinement);
   return advance<Motion>(c, *scheme, *source, stop);
 }
 

@@ -30,15 +30,16 @@ std::unique_ptr<Scheme> make_scheme(const SchemeChoice& choice, const Scene& sce
 }
 
 std::unique_ptr<Source> make_source(const SchemeChoice& choice, const Scene& scene, double mu, bool nonlocal,
-                                    double delta, SourceRule rule) {
+                                    double delta, SourceRule rule, std::size_t refinement) {
   if (!choice.control.empty()) {
     SchemeChoice itself = choice;
     itself.control.clear();
-    return make_control_source(choice.control, make_source(itself, scene, mu, nonlocal, delta, rule));
+    return make_control_source(choice.control, make_source(itself, scene, mu, nonlocal, delta, rule, refinement));
   }
   if (!nonlocal) return local_source(scene);
   KernelProfile kernel = with_kernel(choice.kernel, [](const auto& k) { return profile(k); });
-  return nonlocal_source(scene, {choice.model, choice.nonlocal_divergence, std::move(kernel), delta, mu}, rule);
+  return nonlocal_source(scene, {choice.model, choice.nonlocal_divergence, std::move(kernel), delta, mu}, rule,
+                         refinement);
 }
 
 }  // namespace acstudy

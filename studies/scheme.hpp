@@ -42,6 +42,6 @@ std::unique_ptr<Scheme> make_scheme(const SchemeChoice& choice, const Scene& sce
 
 /// The manufactured source that belongs to a scheme: of the PDE, or of the nonlocal model at horizon `delta`.
 std::unique_ptr<Source> make_source(const SchemeChoice& choice, const Scene& scene, double mu, bool nonlocal,
-                                    double delta, SourceRule rule = SourceRule::gauss);
+                                    double delta, SourceRule rule = SourceRule::gauss, std::size_t refinement = 1);
 
 }  // namespace acstudy

@@ -57,9 +57,9 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   h5::write_text(group, "path", series.path);
   h5::write_text(group, "delta_text", series.delta_text);
   h5::write_text(group, "source", series.nonlocal_source ? "nonlocal" : "local");
-  h5::write_text(group, "integrator", std::string(study.integrator->name));
+  h5::write_text(group, "integrator", std::string(series.cases.front().integrator->name));
   h5::write_text(group, "step_text", study.step_text);
-  h5::write_text(group, "motion", study.scene->standing() ? "standing" : "moving");
+  h5::write_text(group, "motion", series.cases.front().scene->standing() ? "standing" : "moving");
   h5::write_text(group, "theory_variable", series.theory.variable);
   h5::write_number(group, "theory_order", series.theory.order);
   h5::write_text(group, "theory_statement", series.theory.statement);
@@ -131,6 +131,26 @@ void for_each_text(F& finding, Visit&& visit) {
   visit("remark", finding.remark);
 }
 
+void write_surface(hid_t group, const SurfaceFit& fit) {
+  const std::pair<const char*, double> attributes[] = {{"A", fit.A},
+                                                       {"B", fit.B},
+                                                       {"p", fit.p.value},
+                                                       {"p_low", fit.p.low},
+                                                       {"p_high", fit.p.high},
+                                                       {"q", fit.q.value},
+                                                       {"q_low", fit.q.low},
+                                                       {"q_high", fit.q.high},
+                                                       {"h_correction", fit.h_correction},
+                                                       {"delta_correction", fit.delta_correction},
+                                                       {"sharpness", fit.sharpness},
+                                                       {"rms", fit.rms},
+                                                       {"bic", fit.bic},
+                                                       {"bic_h", fit.bic_h},
+                                                       {"bic_delta", fit.bic_delta},
+                                                       {"bic_sum", fit.bic_sum}};
+  for (const auto& [name, value] : attributes) h5::write_number(group, std::string("surface_") + name, value);
+}
+
 void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
   const h5::Handle group = h5::create_group(parent, group_name);
   for_each_text(finding, [&](const char* name, const std::string& text) { h5::write_text(group, name, text); });
@@ -157,6 +177,12 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
   }
   for (const auto& [name, values] : columns.real) h5::write_column<double>(group, name, values);
   for (const auto& [name, values] : columns.count) h5::write_column<std::int64_t>(group, name, values);
+  std::string labels;
+  if (std::any_of(finding.points.begin(), finding.points.end(), [](const Point& p) { return !p.label.empty(); })) {
+    for (const Point& point : finding.points) labels += point.label + "\n";
+  }
+  h5::write_text(group, "labels", labels);
+  if (const auto& fit = finding.surface) write_surface(group, *fit);
 }
 
 Finding read_finding(hid_t group) {
@@ -177,6 +203,8 @@ Finding read_finding(hid_t group) {
       value = values.at(i);
     });
   }
+  std::istringstream labels(h5::read_text(group, "labels"));
+  for (Point& point : finding.points) std::getline(labels, point.label);
   judge(finding);
   return finding;
 }

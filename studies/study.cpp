@@ -14,14 +14,15 @@ std::string Case::key() const {
   return fmt::format(
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
-      "integrator={}|N={}|delta={:.17g}|steps={}{}",
+      "integrator={}|N={}|delta={:.17g}|steps={}{}{}",
       text.period, text.T, text.c, text.b.value_or(""), text.u, text.flow.value_or(""), scheme.model,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",
       scheme.kernel.name, scheme.kernel.alpha, mu, nonlocal_source ? "nonlocal" : "local",
       static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta, steps,
-      scheme.control.empty() ? "" : "|control=" + scheme.control);
+      scheme.control.empty() ? "" : "|control=" + scheme.control,
+      source_refinement == 1 ? "" : fmt::format("|source_points=x{}", source_refinement));
 }
 
 double Case::estimated_work() const {

@@ -39,6 +39,7 @@ struct Case {
   std::int64_t N;
   double h, delta, dt;
   std::int64_t steps;
+  std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
 
   /// Text that is equal for two cases exactly if all their inputs are equal.
   std::string key() const;

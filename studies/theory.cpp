@@ -2,15 +2,10 @@
 
 namespace acstudy {
 
-namespace {
-
-/// Theorems 2.6 - 2.8 and 3.5 - 3.7: stationary, scheme 1, scheme 2.
 std::string theorem(const SchemeChoice& scheme, bool standing) {
   const int offset = standing ? 0 : scheme.nonlocal_divergence ? 2 : 1;
   return scheme.model == 1 ? "Theorem 2." + std::to_string(6 + offset) : "Theorem 3." + std::to_string(5 + offset);
 }
-
-}  // namespace
 
 Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon,
                   bool below_spacing) {

@@ -21,6 +21,11 @@ void read_identities(const Table& root, Study& study);
 void read_stability(const Table& root, Study& study);
 /// Schemes, and schemes with a mistake, before every kind of check: which check notices which mistake.
 void read_controls(const Table& root, Study& study);
+/// Errors over the plane of horizon and spacing, against the local and the nonlocal solution: in which limits a scheme
+/// converges, and to what. Theorems 2.6 - 2.8, 3.5 - 3.7.
+void read_map(const Table& root, Study& study);
+/// What part of the finest errors of convergence studies is of the time step, of the source's quadrature, of round-off.
+void read_pollution(const Table& root, Study& study);
 /// The judge on synthetic series whose right verdict is known.
 void read_corpus(const Table& root, Study& study);
 /// How often the reported interval contains the true order.
@@ -39,6 +44,8 @@ inline constexpr std::array kinds = {
     Kind{"identities", "what the weights satisfy, exactly or within bounds", read_identities},
     Kind{"stability", "max norm of a forward Euler step", read_stability},
     Kind{"controls", "which check notices which deliberate mistake", read_controls},
+    Kind{"map", "errors over the plane of horizon and spacing", read_map},
+    Kind{"pollution", "parts of the finest errors that are not of the scheme in space", read_pollution},
     Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},
     Kind{"coverage", "how often the 95 % interval contains the true order", read_coverage},
 };

@@ -1,0 +1,243 @@
+#include "reports/surface.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit.h>
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <set>
+#include <vector>
+
+namespace acstudy {
+
+namespace {
+
+/// Parameters of the law. Powers are of h/h_max and delta/delta_max, which makes A and B almost independent of p and q.
+enum Parameter : std::size_t { log_A, p, D, log_B, q, F, log_m, parameters };
+
+struct Scaled {
+  double h, delta;          ///< relative to the largest
+  double log_h, log_delta;  ///< logarithms of these
+  double log_error;
+};
+
+struct Data {
+  std::vector<Scaled> points;
+  double h_max = 0.0, delta_max = 0.0;
+};
+
+/// log a, log b and the law at a point; `share` is the part of a in a^m + b^m.
+struct Terms {
+  double log_a, log_b, log_law, share;
+
+  Terms(const gsl_vector* x, const Scaled& point, double m)
+      : log_a(gsl_vector_get(x, log_A) + gsl_vector_get(x, p) * point.log_h + gsl_vector_get(x, D) * point.h),
+        log_b(gsl_vector_get(x, log_B) + gsl_vector_get(x, q) * point.log_delta + gsl_vector_get(x, F) * point.delta) {
+    const double larger = std::max(log_a, log_b), gap = std::exp(-m * std::abs(log_a - log_b));
+    log_law = larger + std::log1p(gap) / m;
+    share = log_a > log_b ? 1.0 / (1.0 + gap) : gap / (1.0 + gap);
+  }
+};
+
+/// A vector without the last parameter has m = 1.
+double sharpness(const gsl_vector* x) { return x->size == parameters ? std::exp(gsl_vector_get(x, log_m)) : 1.0; }
+
+int residuals(const gsl_vector* x, void* data, gsl_vector* f) {
+  const auto& points = static_cast<const Data*>(data)->points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    gsl_vector_set(f, i, Terms(x, points[i], sharpness(x)).log_law - points[i].log_error);
+  }
+  return GSL_SUCCESS;
+}
+
+int derivatives(const gsl_vector* x, void* data, gsl_matrix* J) {
+  const auto& points = static_cast<const Data*>(data)->points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Terms at(x, points[i], sharpness(x));
+    const double a = at.share, b = 1.0 - at.share;
+    const std::array<double, parameters> row = {a,
+                                                a * points[i].log_h,
+                                                a * points[i].h,
+                                                b,
+                                                b * points[i].log_delta,
+                                                b * points[i].delta,
+                                                a * at.log_a + b * at.log_b - at.log_law};
+    for (std::size_t k = 0; k < x->size; ++k) gsl_matrix_set(J, i, k, row[k]);
+  }
+  return GSL_SUCCESS;
+}
+
+double criterion(double squares, std::size_t points, std::size_t fitted) {
+  const auto n = static_cast<double>(points);
+  return n * std::log(std::max(squares, std::numeric_limits<double>::min()) / n) +
+         static_cast<double>(fitted) * std::log(n);
+}
+
+struct Minimum {
+  std::vector<double> x, variance;
+  double squares;
+};
+
+/// The law, with a free sharpness (`count` = parameters) or as a sum (one parameter less).
+std::optional<Minimum> minimize(Data& data, std::size_t count) {
+  double level = 0.0;
+  for (const Scaled& point : data.points) {
+    level += (point.log_error - std::log(std::max(point.h * data.h_max, point.delta * data.delta_max))) /
+             static_cast<double>(data.points.size());
+  }
+  const std::array<double, parameters> start = {
+      level + std::log(data.h_max), 1.0, 0.0, level + std::log(data.delta_max), 1.0, 0.0, std::log(4.0)};
+  const gsl_vector_const_view from = gsl_vector_const_view_array(start.data(), count);
+
+  gsl_multifit_nlinear_fdf problem{};
+  problem.f = residuals;
+  problem.df = derivatives;
+  problem.n = data.points.size();
+  problem.p = count;
+  problem.params = &data;
+  const gsl_multifit_nlinear_parameters options = gsl_multifit_nlinear_default_parameters();
+  const std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)> solver(
+      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &options, problem.n, count), gsl_multifit_nlinear_free);
+  if (solver == nullptr || gsl_multifit_nlinear_init(&from.vector, &problem, solver.get()) != GSL_SUCCESS) return {};
+  int info = 0;
+  const int status = gsl_multifit_nlinear_driver(500, 1e-10, 1e-14, 0.0, nullptr, nullptr, &info, solver.get());
+  // GSL_ENOPROG: no step is an improvement any more, as at a minimum that is exact to round-off.
+  if (status != GSL_SUCCESS && status != GSL_ENOPROG) return {};
+
+  Minimum minimum{std::vector<double>(count), std::vector<double>(count), 0.0};
+  const gsl_vector* const f = gsl_multifit_nlinear_residual(solver.get());
+  for (std::size_t i = 0; i < problem.n; ++i) minimum.squares += std::pow(gsl_vector_get(f, i), 2);
+  const std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)> covariance(gsl_matrix_alloc(count, count),
+                                                                           gsl_matrix_free);
+  gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(solver.get()), 0.0, covariance.get());
+  for (std::size_t k = 0; k < count; ++k) {
+    minimum.x[k] = gsl_vector_get(gsl_multifit_nlinear_position(solver.get()), k);
+    minimum.variance[k] =
+        gsl_matrix_get(covariance.get(), k, k) * minimum.squares / static_cast<double>(problem.n - count);
+    if (!std::isfinite(minimum.x[k]) || !std::isfinite(minimum.variance[k])) return {};
+  }
+  return minimum;
+}
+
+/// Sum of squares of log(error) = log C + order log(v) + correction v.
+double one_term_squares(const Data& data, double Scaled::*v, double Scaled::*log_v) {
+  const std::size_t n = data.points.size();
+  std::vector<double> X, y, coefficients(3), covariance(9);
+  for (const Scaled& point : data.points) {
+    X.insert(X.end(), {1.0, point.*log_v, point.*v});
+    y.push_back(point.log_error);
+  }
+  const gsl_matrix_const_view design = gsl_matrix_const_view_array(X.data(), n, 3);
+  const gsl_vector_const_view values = gsl_vector_const_view_array(y.data(), n);
+  gsl_vector_view c = gsl_vector_view_array(coefficients.data(), 3);
+  gsl_matrix_view cov = gsl_matrix_view_array(covariance.data(), 3, 3);
+  const std::unique_ptr<gsl_multifit_linear_workspace, decltype(&gsl_multifit_linear_free)> workspace(
+      gsl_multifit_linear_alloc(n, 3), gsl_multifit_linear_free);
+  double squares = 0.0;
+  gsl_multifit_linear(&design.matrix, &values.vector, &c.vector, &cov.matrix, &squares, workspace.get());
+  return squares;
+}
+
+}  // namespace
+
+std::optional<SurfaceFit> fit_surface(std::span<const SurfacePoint> points) {
+  // GSL would end the program; what it returns is looked at here.
+  [[maybe_unused]] static gsl_error_handler_t* const aborting = gsl_set_error_handler_off();
+  constexpr std::size_t fewest = 4;
+  Data data;
+  std::set<double> spacings, horizons;
+  for (const SurfacePoint& point : points) {
+    for (const double value : {point.h, point.delta, point.error}) {
+      if (!(value > 0.0) || !std::isfinite(value)) return {};
+    }
+    spacings.insert(point.h);
+    horizons.insert(point.delta);
+  }
+  if (spacings.size() < fewest || horizons.size() < fewest) return {};
+  data.h_max = *spacings.rbegin();
+  data.delta_max = *horizons.rbegin();
+  for (const SurfacePoint& point : points) {
+    const double h = point.h / data.h_max, delta = point.delta / data.delta_max;
+    data.points.push_back({h, delta, std::log(h), std::log(delta), std::log(point.error)});
+  }
+  const auto law = minimize(data, parameters), sum = minimize(data, parameters - 1);
+  if (!law) return {};
+
+  const std::size_t n = points.size();
+  const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - parameters));
+  const auto order = [&](Parameter k) {
+    const double half_width = t * std::sqrt(law->variance[k]);
+    return FittedOrder{law->x[k], law->x[k] - half_width, law->x[k] + half_width};
+  };
+  return SurfaceFit{
+      .A = std::exp(law->x[log_A]) / std::pow(data.h_max, law->x[p]),
+      .B = std::exp(law->x[log_B]) / std::pow(data.delta_max, law->x[q]),
+      .p = order(p),
+      .q = order(q),
+      .h_correction = law->x[D],
+      .delta_correction = law->x[F],
+      .sharpness = std::exp(law->x[log_m]),
+      .rms = std::sqrt(law->squares / static_cast<double>(n)),
+      .bic = criterion(law->squares, n, parameters),
+      .bic_h = criterion(one_term_squares(data, &Scaled::h, &Scaled::log_h), n, 3),
+      .bic_delta = criterion(one_term_squares(data, &Scaled::delta, &Scaled::log_delta), n, 3),
+      .bic_sum = sum ? criterion(sum->squares, n, parameters - 1) : std::numeric_limits<double>::quiet_NaN()};
+}
+
+Judgement judge_surface(std::span<const SurfacePoint> points, double theory_order) {
+  Judgement result{};
+  result.order = result.low = result.high = result.extrapolated = std::numeric_limits<double>::quiet_NaN();
+  const auto conclude = [&](Verdict verdict, std::string reason) {
+    result.verdict = verdict;
+    result.reason = std::move(reason);
+    return result;
+  };
+  for (const SurfacePoint& point : points) {
+    if (!std::isfinite(point.error)) {
+      return conclude(Verdict::unstable,
+                      fmt::format("the error at h = {:.3g}, delta = {:.3g} is {}", point.h, point.delta, point.error));
+    }
+  }
+  const auto fit = fit_surface(points);
+  if (!fit) {
+    return conclude(Verdict::inconclusive, fmt::format("no law in h and delta could be fitted to the {} errors; it "
+                                                       "takes at least four spacings and four horizons",
+                                                       points.size()));
+  }
+  constexpr double decisive = 10.0, widest = 0.25;
+  const auto distance = [&](const FittedOrder& order) { return std::abs(order.value - theory_order); };
+  const FittedOrder& farther = distance(fit->p) > distance(fit->q) ? fit->p : fit->q;
+  result.order = farther.value;
+  result.low = farther.low;
+  result.high = farther.high;
+  const std::string orders = fmt::format("order {:.2f} [{:.2f}, {:.2f}] in h and {:.2f} [{:.2f}, {:.2f}] in delta",
+                                         fit->p.value, fit->p.low, fit->p.high, fit->q.value, fit->q.low, fit->q.high);
+  if (fit->rms > surface_scatter) {
+    return conclude(Verdict::inconclusive,
+                    fmt::format("no two powers describe the errors: log(error) scatters by {:.2g} "
+                                "about the best of them, {}",
+                                fit->rms, orders));
+  }
+  if (std::min(fit->bic_h, fit->bic_delta) - fit->bic < decisive) {
+    return conclude(Verdict::inconclusive,
+                    fmt::format("the errors depend on {} alone", fit->bic_h < fit->bic_delta ? "h" : "delta"));
+  }
+  if (std::max(fit->p.high - fit->p.value, fit->q.high - fit->q.value) > widest) {
+    return conclude(Verdict::inconclusive, orders + ": the intervals are too wide to judge");
+  }
+  if (distance(farther) > extrapolation_tolerance) {
+    return conclude(farther.value < theory_order ? Verdict::below : Verdict::above,
+                    fmt::format("{}, theory says {:g} in both", orders, theory_order));
+  }
+  return conclude(Verdict::confirmed, fmt::format("{} agree with theory's {:g}; log(error) scatters by {:.2g}, terms "
+                                                  "joined with sharpness {:.2g}",
+                                                  orders, theory_order, fit->rms, fit->sharpness));
+}
+
+}  // namespace acstudy

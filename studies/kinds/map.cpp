@@ -1,0 +1,221 @@
+#include <fmt/format.h>
+#include <gsl/gsl_fit.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "studies/kinds/kinds.hpp"
+#include "studies/store.hpp"
+#include "studies/study_parts.hpp"
+#include "studies/theory.hpp"
+
+namespace acstudy {
+
+namespace {
+
+/// Errors of one scheme against one target over the plane: series `first + d` has the horizon delta[d] and the case i
+/// has the spacing h[i].
+struct Plane {
+  std::size_t first;
+  std::vector<double> delta;  ///< small to large
+  std::vector<std::int64_t> N;
+  std::vector<double> h;  ///< coarse to fine
+
+  Point at(const std::vector<SeriesResult>& results, std::size_t d, std::size_t i) const {
+    return {.N = N[i], .h = h[i], .delta = delta[d], .value = results[first + d].results[i].error_linf};
+  }
+  /// The coarse levels are far from any limit in h: orders in h are those of the finer half, of four levels at least.
+  std::size_t finer_half() const { return h.size() - std::min(h.size(), std::max<std::size_t>(4, h.size() / 2 + 1)); }
+};
+
+/// As many of the finest spacings as the limit h -> 0 at a horizon is extrapolated from.
+constexpr std::size_t extrapolated_levels = 3;
+/// Horizon over spacing from which on the scheme sees its kernel, so that this line is one.
+constexpr double resolved = 4.0;
+
+using Points = std::vector<Point>;
+using Results = std::vector<SeriesResult>;
+
+/// h -> 0 at a horizon.
+Points along_h(const Plane& plane, const Results& results, std::size_t d) {
+  Points points;
+  for (std::size_t i = plane.finer_half(); i < plane.h.size(); ++i) {
+    points.push_back(plane.at(results, d, i));
+    points.back().variable = plane.h[i];
+  }
+  return points;
+}
+
+/// The largest error over all horizons, h -> 0.
+Points over_horizons(const Plane& plane, const Results& results) {
+  Points points;
+  for (std::size_t i = plane.finer_half(); i < plane.h.size(); ++i) {
+    Point worst = plane.at(results, 0, i);
+    for (std::size_t d = 1; d < plane.delta.size(); ++d) {
+      // Written so that a NaN is the largest.
+      if (const Point point = plane.at(results, d, i); !(point.value <= worst.value)) worst = point;
+    }
+    worst.variable = plane.h[i];
+    points.push_back(worst);
+  }
+  return points;
+}
+
+/// The distance between nonlocal and local solution, delta -> 0: at each horizon the limit h -> 0 of the error against
+/// the local one, the intercept of a line through the errors at the finest spacings.
+Points limits(const Plane& plane, const Results& results) {
+  Points points;
+  const std::size_t first = plane.h.size() - extrapolated_levels;
+  for (std::size_t d = plane.delta.size(); d-- > 0;) {
+    if (plane.delta[d] < resolved * plane.h[first]) break;
+    std::array<double, extrapolated_levels> errors{};
+    for (std::size_t i = 0; i < extrapolated_levels; ++i) errors[i] = plane.at(results, d, first + i).value;
+    double intercept = 0.0, slope, cov00, cov01, cov11, squares;
+    gsl_fit_linear(plane.h.data() + first, 1, errors.data(), 1, extrapolated_levels, &intercept, &slope, &cov00, &cov01,
+                   &cov11, &squares);
+    points.push_back({.h = 0.0, .delta = plane.delta[d], .variable = plane.delta[d], .value = intercept});
+  }
+  return points;
+}
+
+/// All errors.
+Points everywhere(const Plane& plane, const Results& results) {
+  Points points;
+  for (std::size_t d = 0; d < plane.delta.size(); ++d) {
+    for (std::size_t i = 0; i < plane.h.size(); ++i) {
+      points.push_back(plane.at(results, d, i));
+      points.back().variable = std::max(plane.h[i], plane.delta[d]);
+    }
+  }
+  return points;
+}
+
+std::vector<double> read_horizons(const Table& map) {
+  std::vector<double> horizons;
+  for (const toml::node& item : map.list("delta", "delta = [0.01, 0.1, 1.0]")) {
+    const double delta = map.number("delta", item);
+    if (!horizons.empty() && !(delta > horizons.back())) {
+      map.place(item).fail(
+          fmt::format("delta = {:g} after {:g}; horizons must go from small to large", delta, horizons.back()));
+    }
+    horizons.push_back(delta);
+  }
+  return horizons;
+}
+
+std::vector<bool> read_sources(const Table& map) {
+  std::vector<bool> sources;
+  for (const toml::node& item : map.list("sources", "sources = [\"local\", \"nonlocal\"]")) {
+    sources.push_back(map.choice<bool>("sources", item, {{"local", false}, {"nonlocal", true}}));
+    if (sources.size() == 2 && sources[0] == sources[1]) map.place(item).fail("the same source a second time");
+    if (sources.size() > 2) map.place(item).fail("a third source; there are two, \"local\" and \"nonlocal\"");
+  }
+  return sources;
+}
+
+void require_four(const Table& map, const char* key, std::size_t count) {
+  if (count < 4) {
+    map.place(*map.find(key))
+        .fail(fmt::format("{} has {} entries; a surface of errors needs at least 4, 8 or more are better", key, count));
+  }
+}
+
+}  // namespace
+
+void read_map(const Table& root, Study& study) {
+  root.allow({"study", "scene", "scheme", "time", "source", "map"});
+  study.scene = read_scene(root.sub_table("scene"));
+  const Stepping time = read_time(root);
+  study.integrator = time.integrator;
+  study.step_text = time.step.text();
+  study.source_rule = read_source_rule(root);
+
+  const Table map = root.sub_table("map");
+  map.allow({"delta", "N", "sources"});
+  Plane plane{.first = 0, .delta = read_horizons(map), .N = read_levels(map), .h = {}};
+  const std::vector<bool> sources = read_sources(map);
+  require_four(map, "delta", plane.delta.size());
+  require_four(map, "N", plane.N.size());
+  for (const std::int64_t N : plane.N) plane.h.push_back(study.scene->period() / static_cast<double>(N));
+
+  const toml::array& delta_nodes = map.list("delta", "");
+  for (const SchemeEntry& entry : read_schemes(root, *study.scene)) {
+    const bool standing = study.scene->standing();
+    const std::string theorem_name = theorem(entry.scheme, standing);
+    for (const bool nonlocal : sources) {
+      plane.first = study.series.size();
+      for (std::size_t d = 0; d < plane.delta.size(); ++d) {
+        const double delta = plane.delta[d];
+        Series series{.scheme = entry.scheme,
+                      .path = fmt::format("delta = {:g}", delta),
+                      .delta_text = fmt::format("{:g}", delta),
+                      .nonlocal_source = nonlocal,
+                      .theory = theory_for(entry.scheme, standing, nonlocal, true, delta < plane.h.back()),
+                      .expected = Verdict::confirmed,
+                      .cases = {}};
+        for (const std::int64_t N : plane.N) {
+          series.cases.push_back(make_case(study, time, entry, N, delta, nonlocal, map.place(delta_nodes[d])));
+        }
+        study.series.push_back(std::move(series));
+      }
+
+      const auto measure = [&](Finding finding, auto points) {
+        finding.subject = scheme_label(entry.scheme, standing);
+        const std::string name = finding.label();
+        study.measurements.push_back(
+            {name, [finding = std::move(finding), plane, points](const Results& results) mutable {
+               finding.points = points(plane, results);
+               judge(finding);
+               return finding;
+             }});
+      };
+      const auto order = [&](const std::string& statement, const std::string& claim, const std::string& check,
+                             const std::string& variable, double theory_order, Verdict promised, auto points) {
+        measure(
+            {.statement = statement,
+             .claim = claim,
+             .check = check,
+             .quantity = nonlocal ? "max error against the nonlocal solution" : "max error against the local solution",
+             .test = Test::order,
+             .variable = variable,
+             .theory_order = theory_order,
+             .promised = promised,
+             .expected = promised},
+            points);
+      };
+      const std::size_t last = plane.delta.size() - 1;
+      const auto at_smallest = [](const Plane& p, const Results& r) { return along_h(p, r, 0); };
+      const auto at_largest = [last](const Plane& p, const Results& r) { return along_h(p, r, last); };
+      if (nonlocal) {
+        const Theory smallest = theory_for(entry.scheme, standing, true, true, plane.delta[0] < plane.h.back());
+        order(theorem_name + " (1)", "h -> 0 at a fixed horizon: the nonlocal solution, O(h)",
+              fmt::format("nonlocal source, delta = {:g}", plane.delta[last]), "h", 1.0, Verdict::confirmed,
+              at_largest);
+        order(smallest.statement, "h -> 0 above the horizon: the nonlocal solution, O(h)",
+              fmt::format("nonlocal source, delta = {:g}", plane.delta[0]), "h", 1.0, Verdict::confirmed, at_smallest);
+        order(theorem_name + " (1), (2)", "h -> 0: O(h) uniformly in the horizon", "nonlocal source, worst horizon",
+              "h", 1.0, Verdict::confirmed, over_horizons);
+      } else {
+        order(theorem_name + " (1)", "h -> 0 at a fixed horizon: not the local solution, the error settles",
+              fmt::format("local source, delta = {:g}", plane.delta[last]), "h", 0.0, Verdict::stagnates, at_largest);
+        order(theorem_name + " (1), (2)", "h -> 0, then delta -> 0: nonlocal solution to local one, O(delta)",
+              "local source, limits h -> 0", "delta", 1.0, Verdict::confirmed, limits);
+        order(theorem_name + " (2)", "h -> 0 above the horizon: the local solution, O(h)",
+              fmt::format("local source, delta = {:g}", plane.delta[0]), "h", 1.0, Verdict::confirmed, at_smallest);
+        measure({.statement = theorem_name + " (2)",
+                 .claim = "h and delta -> 0 in any relation: the local solution, O(max(h, delta))",
+                 .check = "local source, all horizons and spacings",
+                 .quantity = "max error against the local solution",
+                 .test = Test::surface,
+                 .variable = "max(h,delta)",
+                 .theory_order = 1.0,
+                 .promised = Verdict::confirmed,
+                 .expected = Verdict::confirmed},
+                everywhere);
+      }
+    }
+  }
+}
+
+}  // namespace acstudy

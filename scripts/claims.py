@@ -26,7 +26,7 @@ def main(arguments):
     for file in files:
         try:
             study = json.loads(file.read_text(encoding="utf-8"))
-            for series in study["series"]:
+            for series in study.get("series", []):  # other kinds have findings
                 claims.setdefault(claim(study, series, folder), []).append(series)
             rows = [row(key, claims[key]) for key in sorted(claims)]
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:

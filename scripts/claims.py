@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Prints the claims as a Markdown table, from result files: python3 scripts/claims.py [OUT_DIR]
+"""Prints what was observed of the theorems as a Markdown table, from result files: python3 scripts/claims.py [OUT_DIR]
 
-A row per theorem, scheme and convergence study; paths, observed orders and verdicts in the same sequence.
+A row per theorem, part and promise, over all convergence studies. Orders are the lowest and the highest observed.
 Exit codes: 0 done; 1 a series departs from what its study expects (its row says so); 2 no result file, or not one.
 """
 
+from collections import Counter
 import json
 from pathlib import Path
 import sys
 
 DEFAULT = "reports/out"
-HEADER = ("theorem", "promises", "Model", "study", "delta", "observed orders", "verdicts", "figure")
+HEADER = ("theorem", "promises", "series", "kernels", "observed orders", "verdicts", "studies")
 
 
 def main(arguments):
@@ -28,42 +29,35 @@ def main(arguments):
             study = json.loads(file.read_text(encoding="utf-8"))
             # A study that is judged by findings is on the report's page of claims.
             for series in study["series"] if study.get("kind", "convergence") == "convergence" else ():
-                claims.setdefault(claim(study, series, folder), []).append(series)
+                claims.setdefault(claim(series), []).append((study["study"], series))
             rows = [row(key, claims[key]) for key in sorted(claims)]
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
             return fail(f"{file}: not a result file of acstudy: {error!r}; remove it, or run its study again")
     for cells in (HEADER, ["---"] * len(HEADER), *rows):
         print("| " + " | ".join(cells) + " |")
-    return 1 if any(not series["as_expected"] for group in claims.values() for series in group) else 0
+    return 1 if any(not series["as_expected"] for group in claims.values() for _, series in group) else 0
 
 
-def claim(study, series, folder):
-    """What a row speaks about; the series of one row differ in their paths alone."""
+def claim(series):
+    """What a row speaks about."""
     theory = series["theory"]
     theorem, _, limit = theory["statement"].partition(": ")
     promise = f"order {theory['order']:g} in {theory['variable']}" if theory["order"] else f"no convergence: {limit}"
-    scheme = ["I" * series["model"]]
-    if series["motion"] == "moving":
-        scheme.append(f"{series['divergence']} divergence")
-    scheme.append(series["kernel"] + (f"({series['alpha']:g})" if "alpha" in series else ""))
-    if len({other["mu"] for other in study["series"] if "mu" in other}) > 1 and "mu" in series:
-        scheme.append(f"mu = {series['mu']:g}")
-    name = study["study"]
-    figure = f"{name}.svg" if (folder / f"{name}.svg").is_file() else "not drawn"
-    return theorem, promise, ", ".join(scheme), name, figure
+    return theorem, promise
 
 
 def row(key, group):
-    theorem, promise, scheme, study, figure = key
-    paths = ", ".join(series["path"].removeprefix("delta = ") for series in group)
-    orders = ", ".join(observed(series) for series in group)
-    verdicts = ", ".join(verdict(series) for series in group)
-    return theorem, promise, scheme, study, paths, orders, verdicts, figure
+    kernels = dict.fromkeys(kernel(series) for _, series in group)
+    verdicts = Counter(verdict(series) for _, series in group)
+    orders = [series["observed"]["order"] for _, series in group if series["observed"]["order"] is not None]
+    observed = f"{min(orders):.2f} – {max(orders):.2f}" if orders else "none"
+    return (*key, str(len(group)), ", ".join(kernels), observed,
+            ", ".join(f"{count} {name}" for name, count in sorted(verdicts.items())),
+            ", ".join(dict.fromkeys(study for study, _ in group)))
 
 
-def observed(series):
-    order = series["observed"]["order"]
-    return "none" if order is None else f"{order:.2f}"
+def kernel(series):
+    return series["kernel"] + (f"({series['alpha']:g})" if "alpha" in series else "")
 
 
 def verdict(series):

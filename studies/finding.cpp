@@ -37,13 +37,20 @@ Judgement judge_bounds(const std::vector<Point>& points) {
   return judgement;
 }
 
+/// A power law with a wider interval than this, on either side, does not show that a bound on the order is met.
+constexpr double widest_rate = 0.3;
+
 /// A bound on errors is no asymptote: they may fall faster, or stray below it. So the order in the limit, which the
-/// judgement is about, need not be known; the power law has to reach theory's order with an interval that could tell
-/// half an order.
+/// judgement is about, need not be known. Every pairwise order reaches theory's, or the power law does, with an
+/// interval that is not too wide.
 Verdict judge_rate(const Judgement& judgement, double theory_order) {
+  const double least = theory_order - order_tolerance;
   const auto& pairwise = judgement.pairwise;
-  const bool falling = std::all_of(pairwise.begin(), pairwise.end(), [](double order) { return order > 0.0; });
-  const bool reaches = judgement.fitted.high >= theory_order - order_tolerance && judgement.fitted.half_width() < 0.5;
+  const auto all_above = [&](double bound) {
+    return std::all_of(pairwise.begin(), pairwise.end(), [&](double order) { return order >= bound; });
+  };
+  const bool reaches = all_above(least) || (all_above(0.0) && judgement.fitted.high >= least &&
+                                            judgement.fitted.half_width() <= widest_rate);
   switch (judgement.verdict) {
     case Verdict::confirmed:
     case Verdict::pre_asymptotic:
@@ -51,9 +58,9 @@ Verdict judge_rate(const Judgement& judgement, double theory_order) {
     case Verdict::floor:
       return Verdict::holds;
     case Verdict::below:
-      return reaches && falling ? Verdict::holds : Verdict::violated;
+      return reaches ? Verdict::holds : Verdict::violated;
     case Verdict::inconclusive:
-      return reaches && falling ? Verdict::holds : Verdict::inconclusive;
+      return reaches ? Verdict::holds : Verdict::inconclusive;
     default:
       return judgement.verdict;
   }

@@ -85,6 +85,7 @@ TEST_CASE("a bound on an order is met by theory's order, by a higher one and by 
   CHECK(rated([](double h) { return std::pow(h, 0.9); }, 1.0) == Verdict::violated);
   CHECK(rated([](double h) { return h * std::log(1.0 / h); }, 1.0) == Verdict::violated);
   CHECK(rated([](double h) { return h > 0.02 ? h : 0.05; }, 1.0) != Verdict::holds);
+  CHECK(rated([](double h) { return h + 0.01; }, 1.0) != Verdict::holds);
   CHECK(rated([](double) { return 0.1; }, 1.0) == Verdict::stagnates);
   CHECK(rated([](double h) { return 1.0 / h; }, 1.0) == Verdict::diverges);
   CHECK(rated([](double h) { return h > 0.02 ? h : NAN; }, 1.0) == Verdict::unstable);

@@ -30,45 +30,57 @@ struct Scaled {
 struct Data {
   std::vector<Scaled> points;
   double h_max = 0.0, delta_max = 0.0;
+  std::vector<Parameter> free;  ///< the parameters that are fitted; the others are zero: no corrections, m = 1
 };
+
+const std::vector<Parameter> law_parameters = {log_A, p, D, log_B, q, F, log_m}, sum_parameters = {log_A, p, log_B, q};
+
+using Vector = std::array<double, parameters>;
+
+Vector whole(const gsl_vector* x, const Data& data) {
+  Vector all{};
+  for (std::size_t k = 0; k < data.free.size(); ++k) all[data.free[k]] = gsl_vector_get(x, k);
+  return all;
+}
 
 /// log a, log b and the law at a point; `share` is the part of a in a^m + b^m.
 struct Terms {
   double log_a, log_b, log_law, share;
 
-  Terms(const gsl_vector* x, const Scaled& point, double m)
-      : log_a(gsl_vector_get(x, log_A) + gsl_vector_get(x, p) * point.log_h + gsl_vector_get(x, D) * point.h),
-        log_b(gsl_vector_get(x, log_B) + gsl_vector_get(x, q) * point.log_delta + gsl_vector_get(x, F) * point.delta) {
+  Terms(const Vector& x, const Scaled& point)
+      : log_a(x[log_A] + x[p] * point.log_h + x[D] * point.h),
+        log_b(x[log_B] + x[q] * point.log_delta + x[F] * point.delta) {
+    const double m = std::exp(x[log_m]);
     const double larger = std::max(log_a, log_b), gap = std::exp(-m * std::abs(log_a - log_b));
     log_law = larger + std::log1p(gap) / m;
     share = log_a > log_b ? 1.0 / (1.0 + gap) : gap / (1.0 + gap);
   }
 };
 
-/// A vector without the last parameter has m = 1.
-double sharpness(const gsl_vector* x) { return x->size == parameters ? std::exp(gsl_vector_get(x, log_m)) : 1.0; }
-
-int residuals(const gsl_vector* x, void* data, gsl_vector* f) {
-  const auto& points = static_cast<const Data*>(data)->points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    gsl_vector_set(f, i, Terms(x, points[i], sharpness(x)).log_law - points[i].log_error);
+int residuals(const gsl_vector* x, void* data_, gsl_vector* f) {
+  const auto& data = *static_cast<const Data*>(data_);
+  const Vector all = whole(x, data);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    gsl_vector_set(f, i, Terms(all, data.points[i]).log_law - data.points[i].log_error);
   }
   return GSL_SUCCESS;
 }
 
-int derivatives(const gsl_vector* x, void* data, gsl_matrix* J) {
-  const auto& points = static_cast<const Data*>(data)->points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Terms at(x, points[i], sharpness(x));
+int derivatives(const gsl_vector* x, void* data_, gsl_matrix* J) {
+  const auto& data = *static_cast<const Data*>(data_);
+  const Vector all = whole(x, data);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Scaled& point = data.points[i];
+    const Terms at(all, point);
     const double a = at.share, b = 1.0 - at.share;
-    const std::array<double, parameters> row = {a,
-                                                a * points[i].log_h,
-                                                a * points[i].h,
-                                                b,
-                                                b * points[i].log_delta,
-                                                b * points[i].delta,
-                                                a * at.log_a + b * at.log_b - at.log_law};
-    for (std::size_t k = 0; k < x->size; ++k) gsl_matrix_set(J, i, k, row[k]);
+    const Vector row = {a,
+                        a * point.log_h,
+                        a * point.h,
+                        b,
+                        b * point.log_delta,
+                        b * point.delta,
+                        a * at.log_a + b * at.log_b - at.log_law};
+    for (std::size_t k = 0; k < data.free.size(); ++k) gsl_matrix_set(J, i, k, row[data.free[k]]);
   }
   return GSL_SUCCESS;
 }
@@ -80,20 +92,24 @@ double criterion(double squares, std::size_t points, std::size_t fitted) {
 }
 
 struct Minimum {
-  std::vector<double> x, variance;
-  double squares;
+  Vector x{}, variance{};
+  double squares = 0.0;
 };
 
-/// The law, with a free sharpness (`count` = parameters) or as a sum (one parameter less).
-std::optional<Minimum> minimize(Data& data, std::size_t count) {
+/// Least squares over some of the parameters.
+std::optional<Minimum> minimize(Data& data, const std::vector<Parameter>& free) {
+  data.free = free;
+  const std::size_t count = free.size();
   double level = 0.0;
   for (const Scaled& point : data.points) {
     level += (point.log_error - std::log(std::max(point.h * data.h_max, point.delta * data.delta_max))) /
              static_cast<double>(data.points.size());
   }
-  const std::array<double, parameters> start = {
+  const Vector start = {
       level + std::log(data.h_max), 1.0, 0.0, level + std::log(data.delta_max), 1.0, 0.0, std::log(4.0)};
-  const gsl_vector_const_view from = gsl_vector_const_view_array(start.data(), count);
+  std::vector<double> free_start;
+  for (const Parameter k : free) free_start.push_back(start[k]);
+  const gsl_vector_const_view from = gsl_vector_const_view_array(free_start.data(), count);
 
   gsl_multifit_nlinear_fdf problem{};
   problem.f = residuals;
@@ -110,17 +126,19 @@ std::optional<Minimum> minimize(Data& data, std::size_t count) {
   // GSL_ENOPROG: no step is an improvement any more, as at a minimum that is exact to round-off.
   if (status != GSL_SUCCESS && status != GSL_ENOPROG) return {};
 
-  Minimum minimum{std::vector<double>(count), std::vector<double>(count), 0.0};
+  Minimum minimum;
   const gsl_vector* const f = gsl_multifit_nlinear_residual(solver.get());
   for (std::size_t i = 0; i < problem.n; ++i) minimum.squares += std::pow(gsl_vector_get(f, i), 2);
   const std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)> covariance(gsl_matrix_alloc(count, count),
                                                                            gsl_matrix_free);
   gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(solver.get()), 0.0, covariance.get());
   for (std::size_t k = 0; k < count; ++k) {
-    minimum.x[k] = gsl_vector_get(gsl_multifit_nlinear_position(solver.get()), k);
-    minimum.variance[k] =
+    const double value = gsl_vector_get(gsl_multifit_nlinear_position(solver.get()), k);
+    const double variance =
         gsl_matrix_get(covariance.get(), k, k) * minimum.squares / static_cast<double>(problem.n - count);
-    if (!std::isfinite(minimum.x[k]) || !std::isfinite(minimum.variance[k])) return {};
+    if (!std::isfinite(value) || !std::isfinite(variance)) return {};
+    minimum.x[free[k]] = value;
+    minimum.variance[free[k]] = variance;
   }
   return minimum;
 }
@@ -166,28 +184,31 @@ std::optional<SurfaceFit> fit_surface(std::span<const SurfacePoint> points) {
     const double h = point.h / data.h_max, delta = point.delta / data.delta_max;
     data.points.push_back({h, delta, std::log(h), std::log(delta), std::log(point.error)});
   }
-  const auto law = minimize(data, parameters), sum = minimize(data, parameters - 1);
-  if (!law) return {};
+  const auto law = minimize(data, law_parameters), sum = minimize(data, sum_parameters);
+  if (!law || !sum) return {};
 
   const std::size_t n = points.size();
-  const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - parameters));
-  const auto order = [&](Parameter k) {
-    const double half_width = t * std::sqrt(law->variance[k]);
-    return FittedOrder{law->x[k], law->x[k] - half_width, law->x[k] + half_width};
+  const auto two_powers = [&](const Minimum& minimum, std::size_t fitted) {
+    const double t = gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - fitted));
+    const auto order = [&](Parameter k) {
+      const double half_width = t * std::sqrt(minimum.variance[k]);
+      return FittedOrder{minimum.x[k], minimum.x[k] - half_width, minimum.x[k] + half_width};
+    };
+    return TwoPowers{.A = std::exp(minimum.x[log_A]) / std::pow(data.h_max, minimum.x[p]),
+                     .B = std::exp(minimum.x[log_B]) / std::pow(data.delta_max, minimum.x[q]),
+                     .p = order(p),
+                     .q = order(q),
+                     .rms = std::sqrt(minimum.squares / static_cast<double>(n)),
+                     .bic = criterion(minimum.squares, n, fitted)};
   };
-  return SurfaceFit{
-      .A = std::exp(law->x[log_A]) / std::pow(data.h_max, law->x[p]),
-      .B = std::exp(law->x[log_B]) / std::pow(data.delta_max, law->x[q]),
-      .p = order(p),
-      .q = order(q),
-      .h_correction = law->x[D],
-      .delta_correction = law->x[F],
-      .sharpness = std::exp(law->x[log_m]),
-      .rms = std::sqrt(law->squares / static_cast<double>(n)),
-      .bic = criterion(law->squares, n, parameters),
-      .bic_h = criterion(one_term_squares(data, &Scaled::h, &Scaled::log_h), n, 3),
-      .bic_delta = criterion(one_term_squares(data, &Scaled::delta, &Scaled::log_delta), n, 3),
-      .bic_sum = sum ? criterion(sum->squares, n, parameters - 1) : std::numeric_limits<double>::quiet_NaN()};
+  SurfaceFit fit{two_powers(*law, law_parameters.size())};
+  fit.sum = two_powers(*sum, sum_parameters.size());
+  fit.h_correction = law->x[D];
+  fit.delta_correction = law->x[F];
+  fit.sharpness = std::exp(law->x[log_m]);
+  fit.bic_h = criterion(one_term_squares(data, &Scaled::h, &Scaled::log_h), n, 3);
+  fit.bic_delta = criterion(one_term_squares(data, &Scaled::delta, &Scaled::log_delta), n, 3);
+  return fit;
 }
 
 Judgement judge_surface(std::span<const SurfacePoint> points, double theory_order) {

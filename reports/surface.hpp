@@ -19,21 +19,26 @@ struct FittedOrder {
   double value, low, high;
 };
 
+/// Two powers that were fitted to a surface, each with its constant.
+struct TwoPowers {
+  double A, B;
+  FittedOrder p, q;
+  double rms;  ///< of the residual of log(error)
+  double bic;  ///< Bayesian information criterion
+};
+
 /// Least squares of log(error) by
 ///
 ///     error = (a^m + b^m)^(1/m),   a = A h^p exp(D h/h_max),   b = B delta^q exp(F delta/delta_max).
 ///
 /// D and F are the first corrections to the leading powers. The sharpness m says how the two terms join: m = 1 adds
-/// them, m -> infinity takes the larger one.
-struct SurfaceFit {
-  double A, B;
-  FittedOrder p, q;
+/// them, m -> infinity takes the larger one. The plain sum cannot follow errors that take the larger one, as those of a
+/// scheme whose horizon has no effect below the spacing; it is there to compare with.
+struct SurfaceFit : TwoPowers {
+  TwoPowers sum;                          ///< error = A h^p + B delta^q
   double h_correction, delta_correction;  ///< D, F
   double sharpness;                       ///< m
-  double rms;                             ///< of the residual of log(error)
-  double bic;                             ///< Bayesian information criterion of the law
   double bic_h, bic_delta;                ///< of a alone and of b alone
-  double bic_sum;                         ///< of a + b
 };
 
 /// @return nothing where the law cannot be fitted: fewer than four spacings or horizons, an error that is not positive

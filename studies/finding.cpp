@@ -49,8 +49,10 @@ Verdict judge_rate(const Judgement& judgement, double theory_order) {
   const auto all_above = [&](double bound) {
     return std::all_of(pairwise.begin(), pairwise.end(), [&](double order) { return order >= bound; });
   };
-  const bool reaches = all_above(least) || (all_above(0.0) && judgement.fitted.high >= least &&
-                                            judgement.fitted.half_width() <= widest_rate);
+  // Levels that are no refinement have no fit, whatever their pairwise orders.
+  const bool reaches =
+      !std::isnan(judgement.fitted.order) && (all_above(least) || (all_above(0.0) && judgement.fitted.high >= least &&
+                                                                   judgement.fitted.half_width() <= widest_rate));
   switch (judgement.verdict) {
     case Verdict::confirmed:
     case Verdict::pre_asymptotic:

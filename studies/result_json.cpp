@@ -83,22 +83,23 @@ json series_json(const Study& study, const SeriesResult& result) {
   return out;
 }
 
-json surface_json(const SurfaceFit& fit) {
+json two_powers_json(const TwoPowers& fit) {
   const auto order = [](const FittedOrder& o) {
     return json{{"value", number(o.value)}, {"low", number(o.low)}, {"high", number(o.high)}};
   };
-  return {{"A", number(fit.A)},
-          {"B", number(fit.B)},
-          {"p", order(fit.p)},
-          {"q", order(fit.q)},
-          {"h_correction", number(fit.h_correction)},
-          {"delta_correction", number(fit.delta_correction)},
-          {"sharpness", number(fit.sharpness)},
-          {"rms", number(fit.rms)},
-          {"bic", number(fit.bic)},
-          {"bic_h", number(fit.bic_h)},
-          {"bic_delta", number(fit.bic_delta)},
-          {"bic_sum", number(fit.bic_sum)}};
+  return {{"A", number(fit.A)}, {"B", number(fit.B)},     {"p", order(fit.p)},
+          {"q", order(fit.q)},  {"rms", number(fit.rms)}, {"bic", number(fit.bic)}};
+}
+
+json surface_json(const SurfaceFit& fit) {
+  json out = two_powers_json(fit);
+  out["sum"] = two_powers_json(fit.sum);
+  out["h_correction"] = number(fit.h_correction);
+  out["delta_correction"] = number(fit.delta_correction);
+  out["sharpness"] = number(fit.sharpness);
+  out["bic_h"] = number(fit.bic_h);
+  out["bic_delta"] = number(fit.bic_delta);
+  return out;
 }
 
 json finding_json(const Finding& finding) {

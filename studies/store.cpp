@@ -132,23 +132,25 @@ void for_each_text(F& finding, Visit&& visit) {
 }
 
 void write_surface(hid_t group, const SurfaceFit& fit) {
-  const std::pair<const char*, double> attributes[] = {{"A", fit.A},
-                                                       {"B", fit.B},
-                                                       {"p", fit.p.value},
-                                                       {"p_low", fit.p.low},
-                                                       {"p_high", fit.p.high},
-                                                       {"q", fit.q.value},
-                                                       {"q_low", fit.q.low},
-                                                       {"q_high", fit.q.high},
-                                                       {"h_correction", fit.h_correction},
-                                                       {"delta_correction", fit.delta_correction},
-                                                       {"sharpness", fit.sharpness},
-                                                       {"rms", fit.rms},
-                                                       {"bic", fit.bic},
-                                                       {"bic_h", fit.bic_h},
-                                                       {"bic_delta", fit.bic_delta},
-                                                       {"bic_sum", fit.bic_sum}};
-  for (const auto& [name, value] : attributes) h5::write_number(group, std::string("surface_") + name, value);
+  const auto write = [&](const std::string& name, double value) { h5::write_number(group, "surface_" + name, value); };
+  const auto write_powers = [&](const std::string& prefix, const TwoPowers& powers) {
+    write(prefix + "A", powers.A);
+    write(prefix + "B", powers.B);
+    for (const auto& [name, order] : {std::pair{"p", powers.p}, std::pair{"q", powers.q}}) {
+      write(prefix + name, order.value);
+      write(prefix + name + "_low", order.low);
+      write(prefix + name + "_high", order.high);
+    }
+    write(prefix + "rms", powers.rms);
+    write(prefix + "bic", powers.bic);
+  };
+  write_powers("", fit);
+  write_powers("sum_", fit.sum);
+  write("h_correction", fit.h_correction);
+  write("delta_correction", fit.delta_correction);
+  write("sharpness", fit.sharpness);
+  write("bic_h", fit.bic_h);
+  write("bic_delta", fit.bic_delta);
 }
 
 void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {

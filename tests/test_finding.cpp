@@ -89,4 +89,9 @@ TEST_CASE("a bound on an order is met by theory's order, by a higher one and by 
   CHECK(rated([](double) { return 0.1; }, 1.0) == Verdict::stagnates);
   CHECK(rated([](double h) { return 1.0 / h; }, 1.0) == Verdict::diverges);
   CHECK(rated([](double h) { return h > 0.02 ? h : NAN; }, 1.0) == Verdict::unstable);
+
+  Finding standstill{.test = Test::rate, .theory_order = 1.0, .promised = Verdict::holds, .expected = Verdict::holds};
+  for (const double error : {0.4, 0.2, 0.1, 0.05}) standstill.points.push_back({.variable = 1.0, .value = error});
+  judge(standstill);
+  CHECK(standstill.judgement.verdict == Verdict::inconclusive);
 }

@@ -37,7 +37,7 @@ constexpr double slowest_correction = 0.4;
 /// A last pairwise order farther off than this is no scatter that could be averaged away.
 constexpr double widest_scatter = 0.25;
 
-struct Finding {
+struct Conclusion {
   Verdict verdict;
   std::string reason;
 };
@@ -53,14 +53,14 @@ std::string with_interval(const Estimate& estimate) {
 }
 
 /// A verdict that needs no fit: levels that are no refinement, errors that are no errors, too few of them.
-std::optional<Finding> unusable(LevelView levels, double floor) {
+std::optional<Conclusion> unusable(LevelView levels, double floor) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (!std::isfinite(levels[i].error)) {
-      return Finding{Verdict::unstable,
-                     fmt::format("the error of level {} of {} is {}", i + 1, levels.size(), levels[i].error)};
+      return Conclusion{Verdict::unstable,
+                        fmt::format("the error of level {} of {} is {}", i + 1, levels.size(), levels[i].error)};
     }
   }
-  const auto inconclusive = [](std::string reason) { return Finding{Verdict::inconclusive, std::move(reason)}; };
+  const auto inconclusive = [](std::string reason) { return Conclusion{Verdict::inconclusive, std::move(reason)}; };
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const Level& level = levels[i];
     if (level.error < 0.0)
@@ -81,7 +81,7 @@ std::optional<Finding> unusable(LevelView levels, double floor) {
     return inconclusive(fmt::format("{} level(s); an order with an interval needs at least 3", levels.size()));
   }
   if (levels.back().error <= floor) {
-    return Finding{Verdict::floor, fmt::format("the finest error, {:.2g}, is round-off", levels.back().error)};
+    return Conclusion{Verdict::floor, fmt::format("the finest error, {:.2g}, is round-off", levels.back().error)};
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (levels[i].error == 0.0) {
@@ -116,10 +116,10 @@ class Evidence {
         pairwise_(std::span(result.pairwise).subspan(result.window.first)),
         last_(pairwise_.back()) {}
 
-  Finding conclude() const {
+  Conclusion conclude() const {
     for (const auto question : {&Evidence::explodes, &Evidence::settles, &Evidence::grows, &Evidence::stops,
                                 &Evidence::has_outlier, &Evidence::dwindles, &Evidence::wavers}) {
-      if (auto finding = (this->*question)()) return *finding;
+      if (auto answer = (this->*question)()) return *answer;
     }
     if (std::isnan(theory_)) {
       return inconclusive(
@@ -127,15 +127,15 @@ class Evidence {
     }
     if (theory_ == 0.0) return inconclusive(fmt::format("the error has not settled: pairwise orders {}", pairs()));
     for (const auto question : {&Evidence::agrees_with_theory, &Evidence::moves_toward_theory}) {
-      if (auto finding = (this->*question)()) return *finding;
+      if (auto answer = (this->*question)()) return *answer;
     }
     return departs();
   }
 
  private:
-  using Answer = std::optional<Finding>;
+  using Answer = std::optional<Conclusion>;
 
-  static Finding inconclusive(std::string reason) { return {Verdict::inconclusive, std::move(reason)}; }
+  static Conclusion inconclusive(std::string reason) { return {Verdict::inconclusive, std::move(reason)}; }
 
   std::string pairs() const { return listed(pairwise_); }
 
@@ -179,9 +179,9 @@ class Evidence {
     const double growth = all_.back().error / smallest->error;
     const double power = std::log(growth) / std::log(smallest->variable / all_.back().variable);
     if (!(growth > explosion_factor && power > explosion_power)) return std::nullopt;
-    return Finding{Verdict::unstable,
-                   fmt::format("the error grows from {:.2g} to {:.2g}, like the variable to the power {:.1f}",
-                               smallest->error, all_.back().error, -power)};
+    return Conclusion{Verdict::unstable,
+                      fmt::format("the error grows from {:.2g} to {:.2g}, like the variable to the power {:.1f}",
+                                  smallest->error, all_.back().error, -power)};
   }
 
   Answer settles() const {
@@ -189,13 +189,13 @@ class Evidence {
     const bool flat = std::abs(last_) <= order_tolerance || (std::abs(result_.fitted.order) <= order_tolerance &&
                                                              result_.fitted.half_width() <= widest_half_width);
     if (!flat && !has_floor()) return std::nullopt;
-    return Finding{Verdict::stagnates,
-                   has_floor()
-                       ? fmt::format("the error settles at {:.3g}, as theory says: error = C v^{:.2f} + {:.3g} fits, "
-                                     "pairwise orders {}",
-                                     all_.back().error, result_.floored.order, result_.floored.F, pairs())
-                       : fmt::format("the error settles at {:.3g}, as theory says: pairwise orders {}",
-                                     all_.back().error, pairs())};
+    return Conclusion{
+        Verdict::stagnates,
+        has_floor() ? fmt::format("the error settles at {:.3g}, as theory says: error = C v^{:.2f} + {:.3g} fits, "
+                                  "pairwise orders {}",
+                                  all_.back().error, result_.floored.order, result_.floored.F, pairs())
+                    : fmt::format("the error settles at {:.3g}, as theory says: pairwise orders {}", all_.back().error,
+                                  pairs())};
   }
 
   Answer grows() const {
@@ -203,9 +203,9 @@ class Evidence {
     const double overall = std::log(first / last) / std::log(all_.front().variable / all_.back().variable);
     const bool twice = last_ < -order_tolerance && pairwise_[pairwise_.size() - 2] < -order_tolerance;
     if (!(overall < -order_tolerance) && !twice) return std::nullopt;
-    return Finding{Verdict::diverges,
-                   fmt::format("the error grows under refinement, from {:.2g} to {:.2g}: pairwise orders {}",
-                               twice ? all_[all_.size() - 3].error : first, last, pairs())};
+    return Conclusion{Verdict::diverges,
+                      fmt::format("the error grows under refinement, from {:.2g} to {:.2g}: pairwise orders {}",
+                                  twice ? all_[all_.size() - 3].error : first, last, pairs())};
   }
 
   Answer stops() const {
@@ -213,8 +213,8 @@ class Evidence {
     const bool level =
         std::abs(result_.fitted.order) <= order_tolerance && result_.fitted.half_width() <= widest_half_width;
     if (theory_ == 0.0 || (!flat && !level)) return std::nullopt;
-    return Finding{Verdict::stagnates,
-                   fmt::format("the error stops falling at {:.3g}: pairwise orders {}", all_.back().error, pairs())};
+    return Conclusion{Verdict::stagnates,
+                      fmt::format("the error stops falling at {:.3g}: pairwise orders {}", all_.back().error, pairs())};
   }
 
   Answer has_outlier() const {
@@ -239,7 +239,7 @@ class Evidence {
   Answer dwindles() const {
     if (theory_ == 0.0 || !falling() || approaching()) return std::nullopt;
     if (!(last_ < 0.25 * pairwise_.front()) && !has_floor()) return std::nullopt;
-    return Finding{
+    return Conclusion{
         Verdict::stagnates,
         has_floor() ? fmt::format("the error stops falling: pairwise orders {}, and error = C v^{:.2f} + {:.3g} fits",
                                   pairs(), result_.floored.order, result_.floored.F)
@@ -271,8 +271,8 @@ class Evidence {
     const bool extrapolates_elsewhere = result_.corrected.low > theory_ + extrapolation_tolerance ||
                                         result_.corrected.high < theory_ - extrapolation_tolerance;
     if (extrapolates_elsewhere || (!near(last_) && !by_chance)) return std::nullopt;
-    return Finding{Verdict::confirmed,
-                   fmt::format("{} agrees with theory's {:g}; pairwise {}", estimates(), theory_, pairs())};
+    return Conclusion{Verdict::confirmed,
+                      fmt::format("{} agrees with theory's {:g}; pairwise {}", estimates(), theory_, pairs())};
   }
 
   /// The pairwise orders pass theory's and go on: a drift that looks like scatter about a straight line.
@@ -298,7 +298,7 @@ class Evidence {
                       pairs(), theory_, slowest_correction, estimates()));
     }
     if (std::abs(result_.extrapolated - theory_) > extrapolation_tolerance && !fits_as_well) return std::nullopt;
-    return Finding{
+    return Conclusion{
         Verdict::pre_asymptotic,
         fmt::format("pairwise orders {} move toward {:g} like v^{:.2g} and extrapolate to {}{}; the power law's {} "
                     "is not there yet",
@@ -306,7 +306,7 @@ class Evidence {
                     with_interval(result_.fitted))};
   }
 
-  Finding departs() const {
+  Conclusion departs() const {
     const bool one_side = std::all_of(pairwise_.begin(), pairwise_.end(), [&](double order) {
       return !near(order) && (order > theory_) == (last_ > theory_);
     });
@@ -353,12 +353,12 @@ Judgement judge(std::span<const Level> levels, double theory_order, const JudgeO
                               std::log(levels[i - 1].variable / levels[i].variable));
   }
   result.window = {0, levels.empty() ? 0 : levels.size() - 1};
-  std::optional<Finding> finding = unusable(levels, round_off * options.scale);
+  std::optional<Conclusion> conclusion = unusable(levels, round_off * options.scale);
   const bool positive = std::all_of(levels.begin(), levels.end(), [](const Level& level) { return level.error > 0.0; });
-  if (!finding || (finding->verdict == Verdict::floor && positive)) estimate(levels, result);
-  if (!finding) finding = Evidence(levels, theory_order, result).conclude();
-  result.verdict = finding->verdict;
-  result.reason = std::move(finding->reason);
+  if (!conclusion || (conclusion->verdict == Verdict::floor && positive)) estimate(levels, result);
+  if (!conclusion) conclusion = Evidence(levels, theory_order, result).conclude();
+  result.verdict = conclusion->verdict;
+  result.reason = std::move(conclusion->reason);
   return result;
 }
 

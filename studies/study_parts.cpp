@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "studies/theory.hpp"
+
 namespace acstudy {
 
 std::shared_ptr<const Scene> read_scene(const Table& table) {
@@ -289,6 +291,31 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
           .delta = delta,
           .dt = scene.T() / static_cast<double>(steps),
           .steps = steps};
+}
+
+Series make_series(const Study& study, const Stepping& time, const SchemeEntry& entry, const PathChoice& path,
+                   const Place& at_delta) {
+  Series series{.scheme = entry.scheme,
+                .path = path.name,
+                .delta_text = path.delta.text(),
+                .nonlocal_source = path.nonlocal_source,
+                .theory = {},
+                .expected = Verdict::confirmed,
+                .cases = {}};
+  for (const std::int64_t N : path.N) {
+    const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
+    series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta));
+  }
+  const Case& finest = series.cases.back();
+  const bool fixed = finest.delta == series.cases.front().delta && series.cases.size() > 1;
+  series.theory =
+      theory_for(entry.scheme, study.scene->standing(), path.nonlocal_source, fixed, finest.delta < finest.h);
+  if (path.order) {
+    series.theory.order = *path.order;
+    series.theory.statement = "given by the study";
+  }
+  series.expected = path.expect.value_or(series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
+  return series;
 }
 
 }  // namespace acstudy

@@ -65,4 +65,8 @@ SourceRule read_source_rule(const Table& root);
 Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
                bool nonlocal_source, const Place& at);
 
+/// The series of one scheme along a path, with what theory says of it; a study may expect or promise something else.
+Series make_series(const Study& study, const Stepping& time, const SchemeEntry& entry, const PathChoice& path,
+                   const Place& at_delta);
+
 }  // namespace acstudy

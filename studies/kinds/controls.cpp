@@ -12,7 +12,6 @@
 #include "studies/operator.hpp"
 #include "studies/store.hpp"
 #include "studies/study_parts.hpp"
-#include "studies/theory.hpp"
 
 namespace acstudy {
 
@@ -246,27 +245,11 @@ void read_controls(const Table& root, Study& study) {
     for (std::size_t p = 0; p < columns.size(); ++p) {
       Column column = columns[p];
       if (p < paths.size()) {
-        const PathChoice& path = paths[p];
-        Series series{.scheme = row.entry.scheme,
-                      .path = path.name,
-                      .delta_text = path.delta.text(),
-                      .nonlocal_source = path.nonlocal_source,
-                      .theory = {},
-                      .expected = Verdict::confirmed,
-                      .cases = {}};
         const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
-        for (const std::int64_t N : path.N) {
-          const double count = static_cast<double>(N), delta = path.delta({scene->period() / count, count});
-          series.cases.push_back(make_case(study, time, row.entry, N, delta, path.nonlocal_source, at_delta));
-        }
-        const Case& finest = series.cases.back();
-        series.theory =
-            theory_for(row.entry.scheme, scene->standing(), path.nonlocal_source,
-                       finest.delta == series.cases.front().delta && series.cases.size() > 1, finest.delta < finest.h);
         column.take = [s = study.series.size()](const SchemeEntry&, const std::vector<SeriesResult>& results) {
           return along_path(*results[s].series, results[s]);
         };
-        study.series.push_back(std::move(series));
+        study.series.push_back(make_series(study, time, row.entry, paths[p], at_delta));
       }
       cells.push_back([=](const std::vector<SeriesResult>& results) {
         Finding finding = column.take(row.entry, results);

@@ -4,7 +4,6 @@
 
 #include "studies/kinds/kinds.hpp"
 #include "studies/study_parts.hpp"
-#include "studies/theory.hpp"
 
 namespace acstudy {
 
@@ -28,29 +27,8 @@ void read_convergence(const Table& root, Study& study) {
   }
   for (const SchemeEntry& entry : read_schemes(root, *study.scene)) {
     for (std::size_t p = 0; p < paths.size(); ++p) {
-      const PathChoice& path = paths[p];
-      Series series{.scheme = entry.scheme,
-                    .path = path.name,
-                    .delta_text = path.delta.text(),
-                    .nonlocal_source = path.nonlocal_source,
-                    .theory = {},
-                    .expected = Verdict::confirmed,
-                    .cases = {}};
       const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
-      for (const std::int64_t N : path.N) {
-        const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
-        series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta));
-      }
-      const Case& finest = series.cases.back();
-      const bool fixed = finest.delta == series.cases.front().delta && series.cases.size() > 1;
-      series.theory =
-          theory_for(entry.scheme, study.scene->standing(), path.nonlocal_source, fixed, finest.delta < finest.h);
-      if (path.order) {
-        series.theory.order = *path.order;
-        series.theory.statement = "given by the study";
-      }
-      series.expected = path.expect.value_or(series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
-      study.series.push_back(std::move(series));
+      study.series.push_back(make_series(study, time, entry, paths[p], at_delta));
     }
   }
 }

@@ -39,8 +39,8 @@ test:  ## builds and runs every test
 	@PYTHON=$$(scripts/find-python.sh) && export PYTHON && ctest --test-dir "$(BUILD)" --output-on-failure -j $(JOBS)
 
 check: build  ## the gates: exit 1 if any verdict departs from what its study expects
-	@$(acstudy) run $(gate_studies) --out "$(OUT)" --jobs $(JOBS) || [ $$? -eq 1 ]
-	@$(acstudy) check "$(OUT)"/*.json
+	@$(acstudy) run $(gate_studies) --out "$(OUT)" --jobs $(JOBS) || case $$? in 1|3) ;; *) exit $$? ;; esac
+	@$(acstudy) check $(patsubst studies/%.toml,"$(OUT)"/%.json,$(gate_studies))
 
 mutants:  ## tests the tests: each mistake planted in a copy of the sources has to be caught (some 20 minutes)
 	$(setup) build test

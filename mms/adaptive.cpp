@@ -1,7 +1,6 @@
 #include "mms/adaptive.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -9,6 +8,8 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+
+#include "mms/gsl_status.hpp"
 
 namespace acstudy {
 
@@ -28,8 +29,6 @@ double integrate_gsl(const Function& g, double lower, double upper, double expon
   gsl_function function{[](double z, void* f) { return (*static_cast<const Function*>(f))(z); },
                         const_cast<Function*>(&g)};
   double result = 0.0, error = 0.0;
-  // GSL would end the program; every status is looked at here.
-  [[maybe_unused]] static gsl_error_handler_t* const aborting = gsl_set_error_handler_off();
   const int status = gsl_integration_qaws(&function, lower, upper, table.get(), 1e-15, tolerance, limit,
                                           workspace.get(), &result, &error);
   // The tolerance may be below what double precision allows; the result is then as good as it gets, within bounds.

@@ -1,7 +1,6 @@
 #include "mms/quadrature.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 
 #include <Eigen/Eigenvalues>
@@ -10,14 +9,14 @@
 #include <memory>
 #include <stdexcept>
 
+#include "mms/gsl_status.hpp"
+
 namespace acstudy {
 
 namespace {
 
 /// Nodes and weights of int_lower^upper f(z) (z - lower)^exponent dz.
 Rule jacobi_rule(double lower, double upper, double exponent, std::size_t points) {
-  // GSL would end the program; what it returns is looked at here.
-  [[maybe_unused]] static gsl_error_handler_t* const aborting = gsl_set_error_handler_off();
   const std::unique_ptr<gsl_integration_fixed_workspace, decltype(&gsl_integration_fixed_free)> workspace(
       gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, points, lower, upper, 0.0, exponent),
       gsl_integration_fixed_free);

@@ -1,7 +1,6 @@
 #include "mms/scene.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
 #include <algorithm>
@@ -10,6 +9,8 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+
+#include "mms/gsl_status.hpp"
 
 namespace acstudy {
 
@@ -151,8 +152,6 @@ std::span<const double> Trajectories::at(double t) {
     scene_.flow()->evaluate(start_, {t}, {x_, {}, {}});
   } else {
     constexpr double tolerance = 1e-14;
-    // GSL would end the program; the status is looked at below.
-    [[maybe_unused]] static gsl_error_handler_t* const aborting = gsl_set_error_handler_off();
     gsl_odeiv2_system system{[](double, const double x[], double dxdt[], void* flow) {
                                const auto& self = *static_cast<const Trajectories*>(flow);
                                self.scene_.b({x, self.x_.size()}, {dxdt, self.x_.size()});

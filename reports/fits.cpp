@@ -10,6 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include "mms/gsl_status.hpp"
+
 namespace acstudy {
 
 namespace {

@@ -256,7 +256,7 @@ class Evidence {
 
   Answer agrees_with_theory() const {
     if (!near(result_.fitted.order)) return std::nullopt;
-    if (result_.fitted.half_width() > widest_half_width) {
+    if (!(result_.fitted.half_width() <= widest_half_width)) {
       return inconclusive(fmt::format("the interval of {} is too wide to judge; pairwise {}", estimates(), pairs()));
     }
     if (std::abs(result_.leave_one_out.change) > extrapolation_tolerance) {

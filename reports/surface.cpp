@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
@@ -13,6 +12,8 @@
 #include <memory>
 #include <set>
 #include <vector>
+
+#include "mms/gsl_status.hpp"
 
 namespace acstudy {
 
@@ -165,8 +166,6 @@ double one_term_squares(const Data& data, double Scaled::*v, double Scaled::*log
 }  // namespace
 
 std::optional<SurfaceFit> fit_surface(std::span<const SurfacePoint> points) {
-  // GSL would end the program; what it returns is looked at here.
-  [[maybe_unused]] static gsl_error_handler_t* const aborting = gsl_set_error_handler_off();
   constexpr std::size_t fewest = 4;
   Data data;
   std::set<double> spacings, horizons;
@@ -185,7 +184,7 @@ std::optional<SurfaceFit> fit_surface(std::span<const SurfacePoint> points) {
     data.points.push_back({h, delta, std::log(h), std::log(delta), std::log(point.error)});
   }
   const auto law = minimize(data, law_parameters), sum = minimize(data, sum_parameters);
-  if (!law || !sum) return {};
+  if (!law) return {};
 
   const std::size_t n = points.size();
   const auto two_powers = [&](const Minimum& minimum, std::size_t fitted) {
@@ -202,7 +201,7 @@ std::optional<SurfaceFit> fit_surface(std::span<const SurfacePoint> points) {
                      .bic = criterion(minimum.squares, n, fitted)};
   };
   SurfaceFit fit{two_powers(*law, law_parameters.size())};
-  fit.sum = two_powers(*sum, sum_parameters.size());
+  if (sum) fit.sum = two_powers(*sum, sum_parameters.size());
   fit.h_correction = law->x[D];
   fit.delta_correction = law->x[F];
   fit.sharpness = std::exp(law->x[log_m]);
@@ -227,9 +226,11 @@ Judgement judge_surface(std::span<const SurfacePoint> points, double theory_orde
   }
   const auto fit = fit_surface(points);
   if (!fit) {
-    return conclude(Verdict::inconclusive, fmt::format("no law in h and delta could be fitted to the {} errors; it "
-                                                       "takes at least four spacings and four horizons",
-                                                       points.size()));
+    return conclude(
+        Verdict::inconclusive,
+        fmt::format("no law in h and delta could be fitted to the {} errors: it takes at least four spacings "
+                    "and four horizons, positive errors, and a part of either variable",
+                    points.size()));
   }
   constexpr double decisive = 10.0, widest = 0.25;
   const auto distance = [&](const FittedOrder& order) { return std::abs(order.value - theory_order); };

@@ -35,7 +35,7 @@ struct TwoPowers {
 /// them, m -> infinity takes the larger one. The plain sum cannot follow errors that take the larger one, as those of a
 /// scheme whose horizon has no effect below the spacing; it is there to compare with.
 struct SurfaceFit : TwoPowers {
-  TwoPowers sum;                          ///< error = A h^p + B delta^q
+  std::optional<TwoPowers> sum;           ///< error = A h^p + B delta^q, if it can be fitted
   double h_correction, delta_correction;  ///< D, F
   double sharpness;                       ///< m
   double bic_h, bic_delta;                ///< of a alone and of b alone

@@ -40,31 +40,46 @@ Judgement judge_bounds(const std::vector<Point>& points) {
 /// A power law with a wider interval than this, on either side, does not show that a bound on the order is met.
 constexpr double widest_rate = 0.3;
 
-/// A bound on errors is no asymptote: they may fall faster, or stray below it. So the order in the limit, which the
-/// judgement is about, need not be known. Every pairwise order reaches theory's, or the power law does, with an
-/// interval that is not too wide.
-Verdict judge_rate(const Judgement& judgement, double theory_order) {
+/// A bound on errors is no asymptote: they may fall faster, or stray below it. Every pairwise order reaches theory's,
+/// or the power law does, with an interval that is not too wide, and the order in the limit is not excluded.
+bool reaches(const Judgement& judgement, double theory_order) {
   const double least = theory_order - order_tolerance;
   const auto& pairwise = judgement.pairwise;
   const auto all_above = [&](double bound) {
     return std::all_of(pairwise.begin(), pairwise.end(), [&](double order) { return order >= bound; });
   };
   // Levels that are no refinement have no fit, whatever their pairwise orders.
-  const bool reaches =
-      !std::isnan(judgement.fitted.order) && (all_above(least) || (all_above(0.0) && judgement.fitted.high >= least &&
-                                                                   judgement.fitted.half_width() <= widest_rate));
+  if (std::isnan(judgement.fitted.order)) return false;
+  if (all_above(least)) return true;
+  const bool leaving = std::is_sorted(pairwise.rbegin(), pairwise.rend()) && pairwise.back() < least;
+  return all_above(0.0) && !leaving && judgement.fitted.high >= least && judgement.fitted.half_width() <= widest_rate &&
+         judgement.high >= least;
+}
+
+/// What a judgement of an order says of a bound on it.
+void judge_rate(Judgement& judgement, double theory_order) {
   switch (judgement.verdict) {
     case Verdict::confirmed:
     case Verdict::pre_asymptotic:
     case Verdict::above:
     case Verdict::floor:
-      return Verdict::holds;
+      judgement.verdict = Verdict::holds;
+      return;
     case Verdict::below:
-      return reaches ? Verdict::holds : Verdict::violated;
     case Verdict::inconclusive:
-      return reaches ? Verdict::holds : Verdict::inconclusive;
+      break;
     default:
-      return judgement.verdict;
+      return;
+  }
+  if (reaches(judgement, theory_order)) {
+    judgement.verdict = Verdict::holds;
+    judgement.reason = fmt::format(
+        "the power law's order {:.2f} [{:.2f}, {:.2f}] reaches theory's {:g}, or each pairwise order does; "
+        "in the limit {:.2f} [{:.2f}, {:.2f}], which does not exclude it",
+        judgement.fitted.order, judgement.fitted.low, judgement.fitted.high, theory_order, judgement.order,
+        judgement.low, judgement.high);
+  } else if (judgement.verdict == Verdict::below) {
+    judgement.verdict = Verdict::violated;
   }
 }
 
@@ -92,6 +107,12 @@ std::optional<Test> test_from(std::string_view name) {
 }
 
 void judge(Finding& finding) {
+  if (!finding.failure.empty()) {
+    finding.judgement = {};
+    finding.judgement.verdict = Verdict::inconclusive;
+    finding.judgement.reason = "it could not be measured: " + finding.failure;
+    return;
+  }
   if (finding.test == Test::bounds) {
     finding.judgement = judge_bounds(finding.points);
     return;
@@ -106,7 +127,7 @@ void judge(Finding& finding) {
   std::vector<Level> levels;
   for (const Point& point : finding.points) levels.push_back({point.variable, point.value});
   finding.judgement = judge(levels, finding.theory_order);
-  if (finding.test == Test::rate) finding.judgement.verdict = judge_rate(finding.judgement, finding.theory_order);
+  if (finding.test == Test::rate) judge_rate(finding.judgement, finding.theory_order);
 }
 
 }  // namespace acstudy

@@ -130,7 +130,10 @@ int run(const std::vector<std::string>& files, RunOptions options) {
       const std::vector<Row> departing = departing_findings(study);
       rows.insert(rows.end(), departing.begin(), departing.end());
       if (!departing.empty()) {
-        status = std::max<int>(status, departs);
+        const bool failed = std::any_of(study.findings.begin(), study.findings.end(), [](const auto& finding) {
+          return finding && !finding->failure.empty() && !finding->as_expected();
+        });
+        status = std::max<int>(status, failed ? numerical_failure : departs);
       } else if (!result.interrupted) {
         rows.push_back({.study = study.study->name,
                         .name = fmt::format("{} findings", study.findings.size()),

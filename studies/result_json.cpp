@@ -93,7 +93,7 @@ json two_powers_json(const TwoPowers& fit) {
 
 json surface_json(const SurfaceFit& fit) {
   json out = two_powers_json(fit);
-  out["sum"] = two_powers_json(fit.sum);
+  if (fit.sum) out["sum"] = two_powers_json(*fit.sum);
   out["h_correction"] = number(fit.h_correction);
   out["delta_correction"] = number(fit.delta_correction);
   out["sharpness"] = number(fit.sharpness);
@@ -107,6 +107,7 @@ json finding_json(const Finding& finding) {
   json out = {{"statement", finding.statement}, {"claim", finding.claim},       {"subject", finding.subject},
               {"check", finding.check},         {"quantity", finding.quantity}, {"test", name_of(finding.test)}};
   if (!finding.remark.empty()) out["remark"] = finding.remark;
+  if (!finding.failure.empty()) out["failure"] = finding.failure;
   out["variable"] = finding.variable;
   if (finding.test != Test::bounds) {
     out["theory_order"] = finding.theory_order;
@@ -173,6 +174,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   Finding& finding = record.finding;
   finding.statement = one.at("statement").get<std::string>();
   finding.subject = one.at("subject").get<std::string>();
+  finding.failure = one.value("failure", "");
   finding.check = one.at("check").get<std::string>();
   const auto test = test_from(one.at("test").get<std::string>());
   if (!test) throw InputError("unknown test " + one.at("test").dump() + " in the result file");

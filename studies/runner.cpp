@@ -111,6 +111,27 @@ std::exception_ptr in_parallel(std::size_t count, int jobs, const std::atomic<bo
   return failure;
 }
 
+/// The finding of a measurement, or why there is none; what is not the fault of the numbers goes up.
+Finding take(const Measurement& measurement, const std::vector<SeriesResult>& results) {
+  std::string failure;
+  try {
+    return measurement.take(results);
+  } catch (const StoreError&) {
+    throw;
+  } catch (const std::domain_error& error) {
+    failure = error.what();
+  } catch (const std::runtime_error& error) {
+    failure = error.what();
+  }
+  Finding finding{.statement = measurement.name,
+                  .test = Test::bounds,
+                  .promised = Verdict::holds,
+                  .expected = Verdict::holds,
+                  .failure = failure};
+  judge(finding);
+  return finding;
+}
+
 }  // namespace
 
 RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop) {
@@ -195,7 +216,7 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   if (!failure && !stop) {
     failure = in_parallel(measurements.size(), options.jobs, stop, [&](std::size_t i) {
       const auto [s, m] = measurements[i];
-      const Finding finding = studies[s].measurements[m].take(run.studies[s].series);
+      const Finding finding = take(studies[s].measurements[m], run.studies[s].series);
       const std::lock_guard lock(mutex);
       run.studies[s].findings[m] = finding;
       finish_if_complete(s);

@@ -129,6 +129,7 @@ void for_each_text(F& finding, Visit&& visit) {
   visit("quantity", finding.quantity);
   visit("variable_name", finding.variable);
   visit("remark", finding.remark);
+  visit("failure", finding.failure);
 }
 
 void write_surface(hid_t group, const SurfaceFit& fit) {
@@ -145,7 +146,7 @@ void write_surface(hid_t group, const SurfaceFit& fit) {
     write(prefix + "bic", powers.bic);
   };
   write_powers("", fit);
-  write_powers("sum_", fit.sum);
+  if (fit.sum) write_powers("sum_", *fit.sum);
   write("h_correction", fit.h_correction);
   write("delta_correction", fit.delta_correction);
   write("sharpness", fit.sharpness);
@@ -366,10 +367,11 @@ StoredCases load_cases(const fs::path& file) {
         stored.cases[h5::read_text(one, "key")] = std::move(result);
       }
     }
-    // Files of before there were findings have none.
+    // Findings of other sources are not used again, so they need not be readable; older files have none.
     if (H5Lexists(root, "findings", H5P_DEFAULT) <= 0) return stored;
-    const h5::Handle findings = h5::open_group(root, "findings");
     stored.findings_key = h5::read_text(root, "findings_key");
+    if (!stored.findings_key.ends_with(measurements_fingerprint())) return stored;
+    const h5::Handle findings = h5::open_group(root, "findings");
     for (const std::string& name : h5::group_names(findings)) {
       stored.findings.push_back(read_finding(h5::open_group(findings, name)));
     }

@@ -161,7 +161,10 @@ Finding consistency_along(const Subject& subject, const LemmaEstimate& estimate,
   finding.theory_order = path.order.value_or(1.0);
   const bool settles = finding.theory_order == 0.0, in_h = estimate.nonlocal || settles;
   finding.variable = in_h ? "h" : "max(h,delta)";
-  if (settles) finding.promised = Verdict::stagnates;
+  if (settles) {
+    finding.claim = "does not vanish as h -> 0 at a fixed delta";
+    finding.promised = Verdict::stagnates;
+  }
   finding.expected = path.expect.value_or(finding.promised);
   for (const std::int64_t N : path.N) {
     const double count = static_cast<double>(N), delta = path.delta({subject.scene->period() / count, count});

@@ -51,10 +51,10 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
   // A control is stepped as the scheme that it is taken for.
   SchemeChoice itself = subject.scheme;
   itself.control.clear();
-  Finding finding = subject.finding(
-      std::string(subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3") + (corrected ? ", corrected" : ""),
-      growth == 0.0 ? "maximum principle" : "norm <= 1 + dt (||c_hat'|| + ||b'||)", fmt::format("CFL {:g}", cfl),
-      "max norm of I + dt R", Test::bounds);
+  Finding finding = subject.finding(subject.scheme.model == 1 ? (corrected ? "Lemma 2.4, row by row" : "Lemma 2.4")
+                                                              : (corrected ? "Lemma 3.3, corrected" : "Lemma 3.3"),
+                                    growth == 0.0 ? "maximum principle" : "norm <= 1 + dt (||c_hat'|| + ||b'||)",
+                                    fmt::format("CFL {:g}", cfl), "max norm of I + dt R", Test::bounds);
   finding.variable = "delta/h";
   if (cfl > 1.0) {
     finding.promised = finding.expected = Verdict::violated;

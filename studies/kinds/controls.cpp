@@ -43,7 +43,7 @@ Finding along_path(const Series& series, const SeriesResult& result) {
   for (std::size_t i = 0; i < series.cases.size(); ++i) {
     const Case& c = series.cases[i];
     finding.points.push_back({c.N, c.h, c.delta, series.variable(c.h, c.delta), result.results[i].error_linf});
-    if (finding.remark.empty()) finding.remark = result.results[i].failure;
+    if (finding.failure.empty()) finding.failure = result.results[i].failure;
   }
   return finding;
 }

@@ -163,12 +163,12 @@ void read_map(const Table& root, Study& study) {
       const auto measure = [&](Finding finding, auto points) {
         finding.subject = scheme_label(entry.scheme, standing);
         const std::string name = finding.label();
-        study.measurements.push_back(
-            {name, [finding = std::move(finding), plane, points](const Results& results) mutable {
-               finding.points = points(plane, results);
-               judge(finding);
-               return finding;
-             }});
+        study.measurements.push_back({name, [prepared = std::move(finding), plane, points](const Results& results) {
+                                        Finding measured = prepared;
+                                        measured.points = points(plane, results);
+                                        judge(measured);
+                                        return measured;
+                                      }});
       };
       const auto order = [&](const std::string& statement, const std::string& claim, const std::string& check,
                              const std::string& variable, double theory_order, Verdict promised, auto points) {
@@ -197,8 +197,10 @@ void read_map(const Table& root, Study& study) {
         order(theorem_name + " (1), (2)", "h -> 0: O(h) uniformly in the horizon", "nonlocal source, worst horizon",
               "h", 1.0, Verdict::confirmed, over_horizons);
       } else {
+        const Theory largest = theory_for(entry.scheme, standing, false, true, plane.delta[last] < plane.h.back());
         order(theorem_name + " (1)", "h -> 0 at a fixed horizon: not the local solution, the error settles",
-              fmt::format("local source, delta = {:g}", plane.delta[last]), "h", 0.0, Verdict::stagnates, at_largest);
+              fmt::format("local source, delta = {:g}", plane.delta[last]), "h", largest.order,
+              largest.order == 0.0 ? Verdict::stagnates : Verdict::confirmed, at_largest);
         order(theorem_name + " (1), (2)", "h -> 0, then delta -> 0: nonlocal solution to local one, O(delta)",
               "local source, limits h -> 0", "delta", 1.0, Verdict::confirmed, limits);
         order(theorem_name + " (2)", "h -> 0 above the horizon: the local solution, O(h)",

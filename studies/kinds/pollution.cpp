@@ -147,10 +147,11 @@ void read_pollution(const Table& root, Study& study) {
           .promised = Verdict::holds,
           .expected = Verdict::holds};
       const std::string label = finding.label();
-      study.measurements.push_back({label, [finding = std::move(finding), c, reruns](const Results& results) mutable {
-                                      measure(finding, c, reruns, results);
-                                      judge(finding);
-                                      return finding;
+      study.measurements.push_back({label, [prepared = std::move(finding), c, reruns](const Results& results) {
+                                      Finding measured = prepared;
+                                      measure(measured, c, reruns, results);
+                                      judge(measured);
+                                      return measured;
                                     }});
     }
   }

@@ -74,9 +74,10 @@ void read_corpus(const Table& root, Study& study) {
   for (const CorpusEntry& entry : verdict_corpus()) {
     Finding finding = corpus_finding(entry);
     const std::string name = finding.label();
-    study.measurements.push_back({name, [finding = std::move(finding)](const auto&) mutable {
-                                    judge(finding);
-                                    return finding;
+    study.measurements.push_back({name, [prepared = std::move(finding)](const auto&) {
+                                    Finding measured = prepared;
+                                    judge(measured);
+                                    return measured;
                                   }});
   }
 }

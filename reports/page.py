@@ -6,6 +6,7 @@ import math
 import claims
 import findings
 import markup
+import mutants
 import names
 from results import CONVERGENCE
 
@@ -22,8 +23,11 @@ CASE_COLUMNS = ("<var>N</var>", "<var>h</var>", "<var>δ</var>", "Δ<var>t</var>
                 "quadrature points")
 
 
-def html(studies, drawings, cost=None):
-    """The page as text. `drawings`: {name of a study: its drawings}; `cost`: the drawing of the cost figure."""
+def html(studies, drawings, cost=None, seeded=None):
+    """The page as text.
+
+    `drawings`: {name of a study: its drawings}; `cost`: the drawing of the cost figure; `seeded`: mutants.read().
+    """
     body = [_summary(studies)]
     for study in studies:
         part = _convergence if study.kind == CONVERGENCE else _findings
@@ -31,8 +35,10 @@ def html(studies, drawings, cost=None):
     if cost:
         body.append('<section aria-labelledby="run-time">\n<h2 id="run-time">Error against run time</h2>\n'
                     f"{markup.figure(cost)}</section>\n")
+    body.append(mutants.section(seeded))
     links = [("claims.html", "claim by claim"), *((f"#{study.name}", study.name) for study in studies)]
     links += [("#run-time", "run time")] if cost else []
+    links.append(("#seeded-mistakes", "seeded mistakes"))
     return markup.document(TITLE, ABOUT, links, "".join(body))
 
 

@@ -13,7 +13,7 @@ import svg
 
 # Okabe and Ito's colors, told apart by readers of every color vision; their yellow is left out: too pale for a line.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
-MARKERS = ("o", "s", "^", "D", "v", "P")
+MARKERS = ("o", "s", "^", "D", "v", "<")
 DASHES = ("solid", (0, (5, 1.6)), (0, (6, 1.4, 1.2, 1.4)), (0, (2.2, 1.2)),
           (0, (4, 1.1, 1, 1.1, 1, 1.1)), (0, (1, 1)))
 GRAY, DEPARTING = "#595959", "#A40E26"

@@ -220,6 +220,16 @@ class Stopping(ReportTest):
 
 
 class Figures(ReportTest):
+    def test_an_order_of_the_law_with_a_correction_is_called_that_of_the_limit(self):
+        corrected = series(extrapolated_order=0.97, observed_fitted=0.91)
+        study = results.read_study(write(self.folder, "fig1", corrected, series(path="delta = h^2")))
+        text = images(study)["svg"].decode()
+        self.assertIn(">limit order 0.97 [0.95, 1.01], theory 1<", text)
+        self.assertIn(">order 0.97 [0.95, 1.01], theory 1<", text)
+        html = page.html([study], {})
+        self.assertIn("order 0.97 [0.95, 1.01], by a power law alone 0.91", html)
+        self.assertIn('<td class="number">0.91</td>', html)
+
     def test_the_same_file_gives_the_same_bytes(self):
         path = write(self.folder, "fig1", series(), series(divergence="nonlocal"), series(path="delta = sqrt(h)"))
         first, second = (images(results.read_study(path)) for _ in range(2))

@@ -60,8 +60,8 @@ def drawings(study, styles):
         f"Log-log plot of the max-norm error at the final time for {study.title}; paths: {paths}. "
         "Values: tables below.",
         "Error of each scheme along each path; the thin line has theory's slope. Limit order: that of a power law "
-        "with a correction, to which the order tends under refinement, with its 95 % interval; with three levels the order is "
-        "that of a power law alone. Numbers above a panel: particles N.")]
+        "with a correction, to which the order tends under refinement, with its 95 % interval; with three "
+        "levels the order is that of a power law alone. Numbers above a panel: particles N.")]
 
 
 def error_figure(study, styles):

@@ -31,13 +31,13 @@ def drawings(study):
                 f"Color maps of the max-norm error over spacing h and horizon delta {described}",
                 "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
                 f"dots are the cases. Lines: refinement paths. {_fit_caption(study)}Asymptotic compatibility: against "
-                "the nonlocal model the error falls to the left at every horizon, against the local equation toward the "
-                "lower left, however that is approached."),
+                "the nonlocal model the error falls to the left at every horizon, against the local equation toward "
+                "the lower left, however that is approached."),
         Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.series, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "
-                "edge; it is wide where a cut passes from δ < h to δ > h. Right: error at the finest spacing; against the "
-                "local equation it approaches the distance of the two solutions, O(δ).")]
+                "edge; it is wide where a cut passes from δ < h to δ > h. Right: error at the finest spacing; against "
+                "the local equation it approaches the distance of the two solutions, O(δ).")]
 
 
 def error_planes(series):

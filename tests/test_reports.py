@@ -168,8 +168,8 @@ class SeededMistakes(ReportTest):
         self.assertEqual(html.count('<tr class="departs">'), 3)
         self.assertLess(html.index("missed"), html.index("model1-tail"))
         for text in ("1 of 3 seeded mistakes are caught", "0 of 1 harmless changes survive", 'class="outcome bad"',
-                     "<strong>no</strong>, expected caught", "<strong>no</strong>, expected survives", "no &lt;hunk&gt;",
-                     '<span class="badge bad">survives</span>'):
+                     "<strong>no</strong>, expected caught", "<strong>no</strong>, expected survives",
+                     "no &lt;hunk&gt;", '<span class="badge bad">survives</span>'):
             self.assertIn(text, html)
 
     def test_without_the_file_a_line_says_what_makes_it(self):

@@ -45,7 +45,9 @@ check: build  ## the gates: exit 1 if any verdict departs from what its study ex
 mutants:  ## tests the tests: each mistake planted in a copy of the sources has to be caught (some 20 minutes)
 	$(setup) build test
 	@$(MAKE) --no-print-directory drawable
-	@scripts/mutants.py --out "$(OUT)/mutants" --jobs $(JOBS)
+	@status=0; scripts/mutants.py --out "$(OUT)/mutants" --jobs $(JOBS) || status=$$?; \
+	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$(scripts/find-python.sh)" reports/report.py "$(OUT)" || \
+		[ $$status -ne 0 ] || status=4; fi; exit $$status
 
 bench: build  ## error against run time with one case at a time, so that none disturbs another
 	@$(acstudy) run studies/fig*.toml --out "$(OUT)/bench" --jobs 1 --repeats 5 --fresh

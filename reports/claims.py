@@ -9,8 +9,10 @@ import names
 
 TITLE = "Asymptotic compatibility: claim by claim"
 ABOUT = """Every statement of the theory in the order of the paper, with all that was measured of it and the worst of
-it. The verdict is that of the worst. A negative control is a case in which the statement must fail, because one of its
-assumptions does; it shows that the measurement would see a failure, and counts as no evidence for the statement."""
+it. The verdict is that of the worst. A statement that is <em>not so as printed</em> is expected to fail somewhere, and
+a remark with its findings says why and what holds instead. A negative control is a case in which the statement must
+fail, because one of its assumptions does; it shows that the measurement would see a failure, and counts as no evidence
+for the statement."""
 
 COLUMNS = ("statement", "what it says", "measured on", "worst observed", "verdict", "as expected", "figures")
 DETAILS = ("subject", "check", "observed", "verdict", "as expected", "reason")
@@ -51,6 +53,10 @@ def _row(statement, drawings):
         measured += (f'<br><span class="note">negative controls: {caught} of {len(statement.controls)} fail as they '
                      "must</span>")
     verdict = markup.badge(worst, worst.control)
+    if statement.refuted and not statement.departing:
+        verdict = '<span class="badge bad">not so as printed</span>'
+        measured += (f'<br><span class="note">{len(statement.refuted)} of {len(statement.tested)} show that it does not '
+                     "hold as printed</span>")
     if statement.departing:
         said = f"<strong>{len(statement.departing)} of {len(statement.entries)} not</strong>"
     else:
@@ -114,7 +120,8 @@ def entry_table(entries, label):
 
 def _as_expected(entry):
     said = markup.expected(entry)
-    return said + ' <span class="note">negative control</span>' if entry.control else said
+    role = "not so as printed" if entry.refuted else "negative control" if entry.control else ""
+    return f'{said} <span class="note">{role}</span>' if role else said
 
 
 def _checked(study):

@@ -39,7 +39,7 @@ def matrix(found):
     subjects, checks = rows_and_columns(found)
     wrong = {finding.subject for finding in found if finding.control}
     with typography():
-        labels = [textwrap.fill(names.literal(subject), 46) for subject in subjects]
+        labels = [textwrap.fill(names.literal(subject), 46, break_on_hyphens=False) for subject in subjects]
         longest = max(len(line) for label in labels for line in label.split("\n"))
         left = 0.3 + 0.064 * longest
         # The slanted heads reach over the right end.
@@ -47,7 +47,7 @@ def matrix(found):
         tall = [ROW * max(1, 0.62 * (label.count("\n") + 1)) for label in labels]
         true = sum(subject not in wrong for subject in subjects)
         gap = 0.12 if 0 < true < len(subjects) else 0.0
-        head = HEAD_ROOM + 0.051 * max(map(len, checks)) + 0.1
+        head = HEAD_ROOM + 0.045 * max(map(len, checks)) + 0.1
         height = sum(tall) + gap
         figure = blank(head + height + FOOT)
         panel = add_axes(figure, left, FOOT, cell * len(checks), height)

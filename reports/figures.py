@@ -59,8 +59,9 @@ def drawings(study, styles):
         study.name, study.title, figure,
         f"Log-log plot of the max-norm error at the final time for {study.title}; paths: {paths}. "
         "Values: tables below.",
-        "Error of each scheme along each path; the thin line has theory's slope. Brackets: 95 % interval of the fitted "
-        "order. Numbers above a panel: particles N.")]
+        "Error of each scheme along each path; the thin line has theory's slope. Limit order: that of a power law "
+        "with a correction, to which the order tends under refinement, with its 95 % interval; with three "
+        "levels the order is that of a power law alone. Numbers above a panel: particles N.")]
 
 
 def error_figure(study, styles):
@@ -120,14 +121,15 @@ def _orders(group):
 
 def _legend_room(panels):
     """Characters that fit into a line of the legend beside a single panel, or below one of several."""
-    return 62 if panels in (2, 4) else 37
+    return 62 if panels in (2, 4) else 40
 
 
 def _legend_text(series, name, room):
     theory = names.order(series.theory_order, "{:g}")
     if math.isfinite(series.observed_order):
         interval = f"[{names.order(series.observed_low)}, {names.order(series.observed_high)}]"
-        lines = [name, f"order {names.order(series.observed_order)} {interval}, theory {theory}"]
+        order = "limit order" if series.observed_order == series.extrapolated_order else "order"
+        lines = [name, f"{order} {names.order(series.observed_order)} {interval}, theory {theory}"]
     else:
         lines = [name, f"order not available, theory {theory}"]
     if not series.as_expected:
@@ -188,6 +190,7 @@ def cost_figure(studies, styles):
             for cases, _, style in drawn:
                 _cost_curve(frame.axes, cases, style)
             axes.set_log_limits(frame.axes, axes.padded(seconds), axes.padded(errors), frame.inches)
+            frame.axes.minorticks_off()     # they would take half of the drawing time
             if frame.first:
                 frame.axes.set_ylabel("max-norm error at $T$")
             if frame.last:

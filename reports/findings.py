@@ -18,6 +18,7 @@ PAPER = ("(2.3)", "Remark 2.1", "Remark 2.2", "Lemma 2.3", "Lemma 2.4", "Lemma 2
          "Theorem 3.6", "Theorem 3.7")
 # Kinds of study that examine the checks and the verdicts themselves.
 OF_MEASUREMENT = ("controls", "corpus")
+OF_OPERATORS = ("consistency", "identities", "stability")
 # From best to worst, where each is as expected.
 _SEVERITY = ("holds", "confirmed", "pre-asymptotic", "floor", "inconclusive")
 
@@ -36,7 +37,8 @@ class Entry:
     verdict: str
     expected: str
     as_expected: bool
-    control: bool       # must fail
+    control: bool       # must fail, because the statement does not apply
+    refuted: bool       # the statement, as printed, is not true here, and the study expects that
     reason: str
     remark: str
 
@@ -59,6 +61,11 @@ class Statement:
     @property
     def controls(self):
         return tuple(entry for entry in self.entries if entry.control)
+
+    @property
+    def refuted(self):
+        """The entries that show that the statement, as printed, is not true."""
+        return tuple(entry for entry in self.entries if entry.refuted)
 
     @property
     def departing(self):
@@ -98,7 +105,13 @@ def of_finding(study, finding):
     return Entry(study, finding.statement, finding.claim, finding.subject, finding.check, measured(finding),
                  finding.observed_order, margin if i is not None and finding.test == "bounds" else math.nan,
                  finding.verdict, " or ".join((finding.expected, *finding.also_expected)), finding.as_expected,
-                 finding.control, finding.reason, finding.remark)
+                 finding.control and not refuted(study, finding), refuted(study, finding), finding.reason,
+                 finding.remark)
+
+
+def refuted(study, finding):
+    """A study of the paper's statements that expects something else than a statement promises refutes it."""
+    return study.kind in OF_OPERATORS and finding.expected != finding.promised
 
 
 def _of_series(study, series):
@@ -108,7 +121,7 @@ def _of_series(study, series):
     source = f"{series.source} source, {study.scene.name or 'scene of ' + study.name}"
     return Entry(study, statement, claim, names.full_name(series.scheme), f"{series.path}, {source}",
                  order_text(series), series.observed_order, math.nan, series.verdict, series.expected,
-                 series.as_expected, series.expected not in ("confirmed", "pre-asymptotic"), series.reason, "")
+                 series.as_expected, series.expected not in ("confirmed", "pre-asymptotic"), False, series.reason, "")
 
 
 def measured(finding):
@@ -165,4 +178,4 @@ def _badness(entry):
     severity = _SEVERITY.index(entry.verdict) if entry.verdict in _SEVERITY else len(_SEVERITY)
     margin = entry.margin if not math.isnan(entry.margin) else math.inf
     order = entry.order if math.isfinite(entry.order) else math.inf
-    return not entry.as_expected, severity, -margin, -order
+    return not entry.as_expected, entry.refuted, severity, -margin, -order

@@ -13,7 +13,7 @@ import svg
 
 # Okabe and Ito's colors, told apart by readers of every color vision; their yellow is left out: too pale for a line.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
-MARKERS = ("o", "s", "^", "D", "v", "P")
+MARKERS = ("o", "s", "^", "D", "v", "<")
 DASHES = ("solid", (0, (5, 1.6)), (0, (6, 1.4, 1.2, 1.4)), (0, (2.2, 1.2)),
           (0, (4, 1.1, 1, 1.1, 1, 1.1)), (0, (1, 1)))
 GRAY, DEPARTING = "#595959", "#A40E26"
@@ -26,6 +26,8 @@ TYPOGRAPHY = {
     "xtick.major.width": 0.7, "ytick.major.width": 0.7, "xtick.minor.width": 0.5, "ytick.minor.width": 0.5,
     "lines.linewidth": 1.4, "lines.markersize": 5.5, "lines.markeredgewidth": 1.2, "legend.fontsize": 10,
     "svg.fonttype": "none", "svg.hashsalt": "acstudy"}
+# Packed harder, PNG files are some percent smaller and take a tenth longer.
+_OF_FILE = {"svg": {}, "png": {"pil_kwargs": {"compress_level": 3}}}
 LEGEND = {"frameon": False, "borderaxespad": 0, "borderpad": 0, "handlelength": 3.0, "handletextpad": 0.6,
           "labelspacing": 0.55}
 
@@ -75,7 +77,7 @@ def render(figure, title):
     with typography():
         for kind, metadata in (("svg", {"Date": None, "Title": title}), ("png", {"Software": None, "Title": title})):
             buffer = io.BytesIO()
-            figure.savefig(buffer, format=kind, dpi=150, metadata=metadata)
+            figure.savefig(buffer, format=kind, dpi=150, metadata=metadata, **_OF_FILE[kind])
             images[kind] = buffer.getvalue()
     images["svg"] = svg.readable(images["svg"].decode()).encode()
     return images

@@ -30,13 +30,14 @@ def drawings(study):
         Drawing(study.name, study.title, map_figure(study, planes),
                 f"Color maps of the max-norm error over spacing h and horizon delta {described}",
                 "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
-                "dots are the cases. Lines: refinement paths. p and q: exponents of the fitted A h^p and B δ^q, with "
-                "95 % intervals. Asymptotic compatibility: against the nonlocal model the error falls to the left at "
-                "every horizon, against the local equation toward the lower left, however that is approached."),
+                f"dots are the cases. Lines: refinement paths. {_fit_caption(study)}Asymptotic compatibility: against "
+                "the nonlocal model the error falls to the left at every horizon, against the local equation toward "
+                "the lower left, however that is approached."),
         Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.series, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
-                "Left: fitted order in h at each horizon, with its 95 % interval. Right: error at the finest "
-                "spacing; against the local equation it approaches the distance of the two solutions, O(δ).")]
+                "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "
+                "edge; it is wide where a cut passes from δ < h to δ > h. Right: error at the finest spacing; against "
+                "the local equation it approaches the distance of the two solutions, O(δ).")]
 
 
 def error_planes(series):
@@ -81,6 +82,7 @@ def map_figure(study, planes):
                 panel.contourf(h, delta, np.ma.masked_invalid(error), levels=levels, cmap=colors, norm=norm)
                 _paths(panel, h, delta)
                 axes.set_log_limits(panel, (h[0], h[-1]), (delta[0], delta[-1]), (width, tall))
+                panel.minorticks_off()      # they would take half of the drawing time
                 panel.tick_params(which="both", direction="out", labelleft=column == 0,
                                   labelbottom=row == len(targets) - 1)
                 panel.set_title(titles[scheme, target], fontsize=9, pad=4)
@@ -140,6 +142,23 @@ def _fit_text(study, scheme, target):
     return ""
 
 
+def _fit_caption(study):
+    """What p and q belong to, and how much better the law describes the errors than a plain sum; "" without a fit."""
+    fits = [finding.fit for finding in study.findings if finding.test == "surface" and finding.fit]
+    if not fits:
+        return ""
+    said = ("p and q, with 95 % intervals: orders of error = (a^m + b^m)^(1/m), a = A h^p exp(D h/h_max), "
+            "b = B δ^q exp(F δ/δ_max); the sharpness m says how the two terms join, from their sum (m = 1) to the "
+            "larger one (m → ∞). ")
+    gains = [fit["bic_sum"] - fit["bic"] for fit in fits if math.isfinite(fit.get("bic_sum", math.nan))
+             and math.isfinite(fit.get("bic", math.nan))]
+    if gains:
+        least, most = f"{min(gains):.0f}", f"{max(gains):.0f}"
+        more = least if least == most else f"{least} to {most}"
+        said += f"The Bayesian information criterion of the plain sum a + b is larger by {more}. ".replace("-", "−")
+    return said
+
+
 def _target(finding):
     return "nonlocal" if "nonlocal" in finding.check else "local"
 
@@ -148,11 +167,12 @@ def cuts_figure(series, planes):
     with typography():
         schemes = list(dict.fromkeys(scheme for scheme, _ in planes))
         labels = names.scheme_names(schemes)
-        left, width, tall, gap, above = 0.72, 3.6, 3.1, 0.85, 0.12
+        left, width, tall, gap, above = 0.62, 2.42, 2.9, 0.12, 0.38
         foot = 0.65 + LINE * 1.5 * math.ceil((len(schemes) + 2) / 2)
         figure = blank(above + tall + foot)
-        orders = add_axes(figure, left, foot, width, tall, xscale="log")
-        errors = add_axes(figure, left + width + gap, foot, width, tall, xscale="log", yscale="log")
+        orders = {target: add_axes(figure, left + i * (width + gap), foot, width, tall, xscale="log")
+                  for i, target in enumerate(TARGETS)}
+        errors = add_axes(figure, WIDTH - 0.1 - width, foot, width, tall, xscale="log", yscale="log")
         styles = {}
         for i, scheme in enumerate(schemes):
             filled, color = scheme.divergence != "nonlocal", COLORS[i % len(COLORS)]
@@ -165,19 +185,24 @@ def cuts_figure(series, planes):
                           for one in series if (one.scheme, one.source) == (scheme, target) and len(one.cases))
             if fits:
                 x, order, low, high = np.array(fits).T
-                orders.errorbar(x, order, yerr=np.nan_to_num(np.clip([order - low, high - order], 0, None)),
-                                elinewidth=0.8, capsize=1.5, linestyle=dash, **styles[scheme])
+                # Schemes beside each other, for the bars of schemes that agree would hide one another.
+                x = x * 1.07 ** (schemes.index(scheme) - (len(schemes) - 1) / 2)
+                orders[target].errorbar(x, order, yerr=np.nan_to_num(np.clip([order - low, high - order], 0, None)),
+                                elinewidth=0.8, linestyle=dash, **styles[scheme])
         limits = axes.padded(np.concatenate([delta for _, delta, _ in planes.values()]))
         bounds, (lines,) = axes.error_bounds([([(delta, error[:, 0], None) for _, delta, error in planes.values()],
                                                [1.0])], (width, tall))
-        for panel in (orders, errors):
+        for panel in (*orders.values(), errors):
             axes.set_log_limits(panel, limits, bounds if panel is errors else (0.1, 1.0), (width, tall))
             panel.tick_params(which="both", top=True, right=True)
             panel.set_xlabel(r"$\delta$")
-        orders.set(yscale="linear", ylim=(-0.3, 2.3))
-        orders.axhline(1.0, color=GRAY, linewidth=0.8)
+        for i, (target, panel) in enumerate(orders.items()):
+            panel.set(yscale="linear", ylim=(-0.6, 2.6))
+            panel.axhline(1.0, color=GRAY, linewidth=0.8)
+            panel.tick_params(labelleft=i == 0)
+            panel.set_title(TARGETS[target], fontsize=10.5, pad=5)
         axes.draw_references(errors, lines, (width, tall), GRAY)
-        orders.set_ylabel("order in $h$ at this horizon")
+        orders["nonlocal"].set_ylabel("order in $h$ at this horizon")
         errors.set_ylabel("max-norm error at the finest $h$")
         keys = [Line2D([], [], **styles[scheme]) for scheme in schemes]
         keys += [Line2D([], [], color=GRAY, linestyle="solid"), Line2D([], [], color=GRAY, linestyle=DASHES[1])]

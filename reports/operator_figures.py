@@ -27,8 +27,8 @@ def consistency_drawings(study):
                 f"{study.name}.{slug(statement)}", f"{study.title}: {statement}", curves_figure(found),
                 f"Log-log plots for {statement}: {found[0].claim}. A panel per arrangement of particles and path. "
                 "Values: table below.",
-                f"{statement}. Thin lines: theory's slope, or the bound of each scheme where a bound is claimed. "
-                "Negative controls are drawn pale.", (statement,)))
+                f"{statement}. Thin lines: theory's slope, or, dashed, the bound of each scheme where one is claimed. "
+                "Schemes that agree are drawn within one another. Negative controls are drawn pale.", (statement,)))
     return drawings
 
 
@@ -68,7 +68,10 @@ def curves_figure(found):
                     if not finding.as_expected:
                         panel.plot(x, y, color=DEPARTING, linewidth=4, alpha=0.35, zorder=1)
                 for (x, y, _), finding in zip(_bounds(cell), (one for one in cell if _bounded(one))):
-                    panel.plot(x, y, color=styles[finding.subject]["color"], linewidth=0.7, linestyle=(0, (1, 1.5)))
+                    # In turn, so that bounds that agree show all of their colors.
+                    turn = list(styles).index(finding.subject)
+                    panel.plot(x, y, color=styles[finding.subject]["color"], linewidth=0.9,
+                               linestyle=(2.5 * turn, (2.5, 2.5 * max(1, len(styles) - 1))))
                 axes.set_log_limits(panel, limits, bounds, (width, tall))
                 panel.minorticks_off()      # they would take half of the drawing time
                 axes.draw_references(panel, next(lines), (width, tall), GRAY)
@@ -261,7 +264,7 @@ def growth_figure(found):
                     continue
                 panel = add_axes(figure, LEFT + j * (width + GAP), bottom, width, tall, xscale="log")
                 axes.set_log_limits(panel, axes.padded(x_all), (0.1, 1.0), (width, tall))
-                panel.set_yscale("symlog", linthresh=1.0, linscale=0.8)
+                panel.set_yscale("symlog", linthresh=1.0, linscale=max(0.8, 0.3 * math.log10(high)))
                 panel.set_ylim(low * 1.2, high * 1.5)
                 decades = range(0, math.ceil(math.log10(high)) + 1, max(1, math.ceil(math.log10(high) / 4)))
                 panel.set_yticks([0.0, *(10.0 ** k for k in decades)],
@@ -304,16 +307,17 @@ def _growth(finding):
 # ------------------------------------------------------------------------------------------------------------ shared
 
 def _styles(found):
-    """{subject: how its curves look}; open markers and dashes for the nonlocal divergence, as in every figure."""
+    """{subject: how its curves look}; open markers for the nonlocal divergence, as in every figure.
+
+    Each is smaller than the one below it: curves of schemes that agree lie within one another.
+    """
+    subjects = list(dict.fromkeys(finding.subject for finding in found))
     styles = {}
-    for finding in found:
-        i = len(styles)
-        if finding.subject not in styles:
-            filled = "nonlocal" not in finding.subject
-            color = COLORS[i % len(COLORS)]
-            styles[finding.subject] = dict(color=color, marker=MARKERS[i % len(MARKERS)], linewidth=1.1,
-                                           linestyle=DASHES[i % len(DASHES)], markersize=3.6 if filled else 5.0,
-                                           markeredgewidth=0.9, markerfacecolor=color if filled else "none")
+    for i, subject in enumerate(subjects):
+        color, above = COLORS[i % len(COLORS)], 1 - i / max(1, len(subjects) - 1)
+        styles[subject] = dict(color=color, marker=MARKERS[i % len(MARKERS)], linewidth=1.0 + 1.0 * above,
+                               linestyle=DASHES[i % len(DASHES)], markersize=3.4 + 3.6 * above, markeredgewidth=0.9,
+                               markerfacecolor="none" if "nonlocal" in subject else color)
     return styles
 
 

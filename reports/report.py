@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Draws the figures and the page of acstudy's result files: python3 reports/report.py [OUT_DIR] [STUDY.h5 ...]
 
-Exit codes: 0 done; 2 bad usage, nothing written; 4 a file that cannot be read or written; 130 interrupted.
+Exit codes: 0 done; 2 bad usage, nothing written; 4 a file that cannot be read or written, or a process that was killed;
+130 interrupted.
 """
 
 import argparse
+from contextlib import closing
 import os
 from pathlib import Path
 import sys
@@ -21,10 +23,11 @@ def main(arguments=None):
     options = _options(arguments)
     try:
         # The libraries load in a second: only once the command line is known to be good.
+        import drawing
         import results
         try:
             print(report(*_inputs(options)))
-        except results.ResultError as error:
+        except (results.ResultError, drawing.DrawingKilled) as error:
             return _fail(4, error)
     except UsageError as error:
         return _fail(2, error)
@@ -43,21 +46,24 @@ def report(folder, files):
     import claims
     import drawing
     import figures
+    import mutants
     import page
     import results
 
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
+    seeded = mutants.read(folder)
     styles = figures.scheme_styles(studies)
     drawings = {}
-    for study, drawn in zip((*studies, None), drawing.of_all(studies, styles)):
-        for one in drawn:
-            for kind, content in one.files.items():
-                _write(folder / f"{one.stem}.{kind}", content)
-        drawings[study.name if study else "cost"] = drawn
+    with closing(drawing.of_all(studies, styles)) as drawn_in_turn:
+        for study, drawn in zip((*studies, None), drawn_in_turn):
+            for one in drawn:
+                for kind, content in one.files.items():
+                    _write(folder / f"{one.stem}.{kind}", content)
+            drawings[study.name if study else "cost"] = drawn
     cost = next(iter(drawings.pop("cost")), None)
     index = folder / "index.html"
-    _write(index, page.html(studies, drawings, cost).encode("utf-8"))
+    _write(index, page.html(studies, drawings, cost, seeded).encode("utf-8"))
     _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
     return index
 
@@ -65,7 +71,8 @@ def report(folder, files):
 def _options(arguments):
     parser = argparse.ArgumentParser(
         prog="report.py", description="Draw the figures and the page of acstudy's result files.",
-        epilog="exit codes: 0 done, 2 bad usage, 4 a file that cannot be read or written")
+        epilog="exit codes: 0 done, 2 bad usage, 4 a file that cannot be read or written or a drawing process that was "
+               "killed, 130 interrupted")
     parser.add_argument("out_dir", metavar="OUT_DIR", nargs="?", default=DEFAULT,
                         help=f"folder of the result files and of the report (default: {DEFAULT})")
     parser.add_argument("studies", metavar="STUDY.h5", nargs="*",

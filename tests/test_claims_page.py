@@ -84,7 +84,7 @@ class Ledger(ReportTest):
         departing = finding(subject="departing", test="bounds", value=[2.0] * 4, upper=1.0, verdict="violated",
                             as_expected=0, alarm=1)
         control = finding(subject="control", test="bounds", value=[9.0] * 4, upper=1.0, verdict="violated",
-                          expected="violated", alarm=1)
+                          promised="violated", expected="violated")
         self.assertEqual(worst(far, near, control), "near")
         self.assertEqual(worst(unsure, near, control), "unsure")
         self.assertEqual(worst(far, departing, unsure, control), "departing")
@@ -120,10 +120,23 @@ class Pages(ReportTest):
         self.assertIn("1 of 2 findings not as expected", index)
         self.assertLess(index.index("pairwise orders &lt;0.5&gt;"), index.index("<summary>Every finding"))
 
+    def test_a_statement_that_is_refuted_does_not_pass_for_one_that_holds(self):
+        refuted = finding(verdict="violated", promised="holds", expected="violated", alarm=1, test="bounds",
+                          value=[2] * 4, upper=1.0, check="uneven")
+        html = self.html(read(self.folder, kind="stability", findings=[finding(verdict="holds"), refuted]))
+        self.assertIn("All 2 results are as expected", html)
+        self.assertIn('<span class="badge bad">not so as printed</span>', html)
+        self.assertIn("1 of 2 show that it does not hold as printed", html)
+        self.assertNotIn("negative controls", html)
+        departing = refuted | dict(verdict="holds", as_expected=0, alarm=0)
+        html = self.html(read(self.folder, kind="stability", findings=[finding(verdict="holds"), departing]))
+        self.assertNotIn('<span class="badge bad">not so as printed</span>', html)
+        self.assertIn('class="departs"', html)
+
     def test_a_negative_control_is_no_alarm_unless_it_holds(self):
-        caught = finding(verdict="violated", promised="holds", expected="violated", alarm=1, test="bounds",
+        caught = finding(verdict="violated", promised="violated", expected="violated", test="bounds",
                          value=[2] * 4, upper=1.0)
-        missed = caught | dict(verdict="holds", as_expected=0, alarm=0, check="moved")
+        missed = caught | dict(verdict="holds", as_expected=0, alarm=1, check="moved")
         html = self.html(read(self.folder, kind="stability", findings=[finding(), caught]))
         self.assertIn("All 2 results are as expected", html)
         self.assertIn("negative controls: 1 of 1 fail as they must", html)

@@ -126,13 +126,16 @@ class Maps(FigureTest):
     def test_a_map_shows_fit_and_paths_and_is_no_convergence_study(self):
         fit = finding(test="surface", subject="Model I, local divergence, inverse", check="local source, delta <= 0.1",
                       surface_p=0.98, surface_p_low=0.9, surface_p_high=1.06, surface_q=1.02, surface_q_low=1.0,
-                      surface_q_high=1.04)
+                      surface_q_high=1.04, surface_bic=-700.0, surface_bic_sum=-400.0)
         texts = self.texts("map", fit, all_series=self.all_series())
         self.assertEqual(list(texts), ["map", "map.cuts"])
         self.assertIn("0.98 [0.90, 1.06]", texts["map"])
         self.assertIn("1.02 [1.00, 1.04]", texts["map"])
         study = self.study("map", fit, all_series=self.all_series())
         self.assertIsNone(figures.cost_figure([study], figures.scheme_styles([study])))
+        caption = map_figures.drawings(study)[0].caption
+        self.assertIn("error = (a^m + b^m)^(1/m)", caption)
+        self.assertIn("plain sum a + b is larger by 300.", caption)
 
     def test_cases_that_failed_leave_holes(self):
         broken = self.all_series()

@@ -1,10 +1,17 @@
 """The report on small synthetic result files: it shows everything, hides nothing, and stops cleanly at bad input."""
 
+import json
 import math
+import multiprocessing
+import os
 from pathlib import Path
+import signal
 import subprocess
 import sys
+import threading
+import time
 import unittest
+from unittest import mock
 from xml.etree import ElementTree
 
 import h5py
@@ -15,6 +22,7 @@ from tests.result_files import ROOT, ReportTest, series, write
 import axes
 import figures
 import look
+import mutants
 import names
 import page
 import results
@@ -123,7 +131,105 @@ class Page(ReportTest):
         self.assertEqual(done.stdout, f"{self.folder / 'index.html'}\n")
 
 
+def mutant(**changes):
+    return dict(name="model1-tail", file="solver/model1.hpp", what="the outermost cell loses its tail",
+                expected="caught", outcome="caught", caught=True, as_expected=True, seconds=1.5,
+                caught_by=[{"kind": "test", "name": "moments <1>"}, {"kind": "gate", "name": "fig2: a"},
+                           {"kind": "gate", "name": "fig2: b"}]) | changes
+
+
+class SeededMistakes(ReportTest):
+    survivor = dict(expected="survives", outcome="survives", caught=False, caught_by=[])
+
+    def setUp(self):
+        super().setUp()
+        write(self.folder, "fig1", series())
+        self.file = self.folder / mutants.FILE
+        self.file.parent.mkdir()
+
+    def section(self, *found):
+        self.file.write_text(json.dumps({"mutants": found}), encoding="utf-8")
+        code, _, err = self.run_report(self.folder)
+        self.assertEqual((code, err), (0, ""))
+        return (self.folder / "index.html").read_text(encoding="utf-8").partition('id="seeded-mistakes"')[2]
+
+    def test_a_table_says_what_sees_each_mistake(self):
+        html = self.section(mutant(), mutant(name="control-comment", **self.survivor))
+        for text in ("1 of 1 seeded mistakes are caught", "1 of 1 harmless changes survive", "solver/model1.hpp",
+                     "1 test, 2 gates", "test: moments &lt;1&gt;", "gate: fig2: b", "control: must survive"):
+            self.assertIn(text, html)
+        self.assertIn('class="outcome good"', html)
+        self.assertNotIn('class="departs"', html)
+
+    def test_what_departs_stands_out(self):
+        html = self.section(mutant(), mutant(name="missed", outcome="survives", as_expected=False, caught_by=[]),
+                            mutant(name="control-seen", expected="survives", as_expected=False),
+                            mutant(name="stale", outcome="error", as_expected=False, caught_by=[], error="no <hunk>"))
+        self.assertEqual(html.count('<tr class="departs">'), 3)
+        self.assertLess(html.index("missed"), html.index("model1-tail"))
+        for text in ("1 of 3 seeded mistakes are caught", "0 of 1 harmless changes survive", 'class="outcome bad"',
+                     "<strong>no</strong>, expected caught", "<strong>no</strong>, expected survives",
+                     "no &lt;hunk&gt;", '<span class="badge bad">survives</span>'):
+            self.assertIn(text, html)
+
+    def test_without_the_file_a_line_says_what_makes_it(self):
+        code, _, _ = self.run_report(self.folder)
+        html = (self.folder / "index.html").read_text(encoding="utf-8")
+        self.assertEqual((code, html.count("make mutants")), (0, 1))
+
+    def test_a_malformed_file_stops_with_4_and_one_line(self):
+        without = mutant()
+        del without["caught_by"]
+        for text in ("{", "[]", "{}", '{"mutants": 3}', '{"mutants": ["a"]}', json.dumps({"mutants": [without]}),
+                     json.dumps({"mutants": [mutant(what=7)]}), json.dumps({"mutants": [mutant(as_expected="no")]}),
+                     json.dumps({"mutants": [mutant(caught_by=["x"])]})):
+            with self.subTest(text):
+                self.file.write_text(text, encoding="utf-8")
+                code, out, err = self.run_report(self.folder)
+                self.assertEqual((code, out, err.count("\n")), (4, "", 1), err)
+                self.assertIn(f"{self.file}: ", err)
+                self.assertFalse((self.folder / "index.html").exists())
+
+
+@unittest.skipUnless(multiprocessing.get_start_method() == "fork" and hasattr(os, "sched_getaffinity"),
+                     "the drawing processes have to inherit what is patched here")
+class Stopping(ReportTest):
+    def draw(self, render):
+        """(exit code, stdout, stderr) with `render` in place of the rendering, in two processes."""
+        write(self.folder, "fig1", series())
+        write(self.folder, "fig2", series())
+        with mock.patch("os.sched_getaffinity", lambda _: {0, 1}), mock.patch("look.render", render):
+            stopped = self.run_report(self.folder)
+        self.assertFalse((self.folder / "index.html").exists())
+        self.assertEqual(multiprocessing.active_children(), [])
+        return stopped
+
+    def test_a_killed_drawing_process_stops_with_4_and_one_line(self):
+        code, out, err = self.draw(lambda *_: os.kill(os.getpid(), signal.SIGKILL))
+        self.assertEqual((code, out, err.count("\n")), (4, "", 1), err)
+        self.assertIn("a drawing process was killed", err)
+
+    def test_an_interrupt_ends_it_at_once(self):
+        timer = threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT))
+        self.addCleanup(timer.cancel)
+        timer.start()
+        start = time.monotonic()
+        code, out, err = self.draw(lambda *_: time.sleep(60))
+        self.assertEqual((code, out, err.count("\n")), (130, "", 1), err)
+        self.assertLess(time.monotonic() - start, 20)
+
+
 class Figures(ReportTest):
+    def test_an_order_of_the_law_with_a_correction_is_called_that_of_the_limit(self):
+        corrected = series(extrapolated_order=0.97, observed_fitted=0.91)
+        study = results.read_study(write(self.folder, "fig1", corrected, series(path="delta = h^2")))
+        text = images(study)["svg"].decode()
+        self.assertIn(">limit order 0.97 [0.95, 1.01], theory 1<", text)
+        self.assertIn(">order 0.97 [0.95, 1.01], theory 1<", text)
+        html = page.html([study], {})
+        self.assertIn("order 0.97 [0.95, 1.01], by a power law alone 0.91", html)
+        self.assertIn('<td class="number">0.91</td>', html)
+
     def test_the_same_file_gives_the_same_bytes(self):
         path = write(self.folder, "fig1", series(), series(divergence="nonlocal"), series(path="delta = sqrt(h)"))
         first, second = (images(results.read_study(path)) for _ in range(2))

@@ -92,7 +92,7 @@ TEST_CASE("the plain sum of two powers recovers its own law, and shows what it c
   const auto larger = fit_surface(surface([](double h, double delta) { return std::max(h, delta); }));
   REQUIRE(larger);
   REQUIRE(larger->sum);
-  CHECK(larger->sum.rms > 10.0 * larger->rms);
+  CHECK(larger->sum->rms > 10.0 * larger->rms);
 }
 
 TEST_CASE("the 95 % intervals of a surface's orders hold the truth in 93 to 97 % of trials") {

@@ -49,12 +49,11 @@ bool reaches(const Judgement& judgement, double theory_order) {
     return std::all_of(pairwise.begin(), pairwise.end(), [&](double order) { return order >= bound; });
   };
   // Levels that are no refinement have no fit, whatever their pairwise orders.
-  if (std::isnan(judgement.fitted.order)) return false;
+  if (std::isnan(judgement.fitted.order) || judgement.high < least) return false;
   if (all_above(least)) return true;
   const bool leaving =
       std::is_sorted(pairwise.rbegin(), pairwise.rend()) && pairwise.back() + judgement.fitted.half_width() < least;
-  return all_above(0.0) && !leaving && judgement.fitted.high >= least && judgement.fitted.half_width() <= widest_rate &&
-         judgement.high >= least;
+  return all_above(0.0) && !leaving && judgement.fitted.high >= least && judgement.fitted.half_width() <= widest_rate;
 }
 
 /// What a judgement of an order says of a bound on it.

@@ -10,6 +10,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "studies/study_file.hpp"
 
@@ -165,7 +166,7 @@ double real(const json& value) {
 
 Verdict verdict(const json& value) {
   const auto found = verdict_from(value.get<std::string>());
-  if (!found) throw InputError("unknown verdict " + value.dump() + " in the result file");
+  if (!found) throw std::invalid_argument("unknown verdict " + value.dump());
   return *found;
 }
 
@@ -177,7 +178,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   finding.failure = one.value("failure", "");
   finding.check = one.at("check").get<std::string>();
   const auto test = test_from(one.at("test").get<std::string>());
-  if (!test) throw InputError("unknown test " + one.at("test").dump() + " in the result file");
+  if (!test) throw std::invalid_argument("unknown test " + one.at("test").dump());
   finding.test = *test;
   finding.theory_order = finding.test == Test::bounds ? 0.0 : real(one.at("theory_order"));
   finding.promised = verdict(one.at("promised"));
@@ -266,6 +267,8 @@ ResultRecord read_json(const std::string& file) {
     const std::string what = error.what();
     throw InputError(
         fmt::format("{}: not a result file of acstudy: {}; {}", file, what.substr(what.find("] ") + 2), remedy));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: not a result file of acstudy: {}; {}", file, error.what(), remedy));
   }
   if (all.series.empty() && all.findings.empty() && all.findings_planned == 0) {
     throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));

@@ -49,6 +49,14 @@ std::shared_ptr<const Scene> read_scene(const Table& table) {
   }
 }
 
+std::shared_ptr<const Scene> read_scene_with_advection(const Table& table) {
+  auto scene = read_scene(table);
+  if (scene->max_relative_velocity() == 0.0) {
+    table.place().fail("c - b is zero everywhere, so there is no operator to study; choose another c or b");
+  }
+  return scene;
+}
+
 namespace {
 
 KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model) {

@@ -16,6 +16,8 @@ namespace acstudy {
 
 /// [scene]: a named scene, or the fields themselves.
 std::shared_ptr<const Scene> read_scene(const Table& table);
+/// The same for studies of an operator, which is nothing where c - b is zero everywhere.
+std::shared_ptr<const Scene> read_scene_with_advection(const Table& table);
 
 /// A [[scheme]]; `standing` decides whether it needs a divergence form.
 SchemeChoice read_scheme(const Table& table, const Scene& scene);

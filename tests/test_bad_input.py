@@ -256,6 +256,9 @@ STUDIES = {
     "kernel of no scheme": (
         bad(("ratios = [1]", 'ratios = [1]\n\n[printed]\nviolated = [@"inverse"]'), of=SWEEP),
         'no [[scheme]] of Model II has the kernel "inverse"; name one of those as explain prints it'),
+    "no relative velocity to study": (
+        bad(('[scene]\nuse = "lee-du-2019"', '@[scene]\nperiod = "2*pi"\nT = 1\nc = "sin(x)"\nb = "sin(x)"\nu = "cos(x)"'),
+            of=SWEEP), "c - b is zero everywhere, so there is no operator to study; choose another c or b"),
     "path in a study without paths": (bad(("[sweep]", "[[@path]]\nname = 1\n\n[sweep]"), of=SWEEP),
                                       'unknown key "path" in the study; known keys: study, scene, scheme, sweep, '
                                       'printed'),

@@ -9,7 +9,7 @@ namespace acstudy {
 
 void read_identities(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "sweep"});
-  study.scene = read_scene(root.sub_table("scene"));
+  study.scene = read_scene_with_advection(root.sub_table("scene"));
   const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
   const auto add = [&](std::string name, std::function<Finding()> take) {
     study.measurements.push_back({std::move(name), [take = std::move(take)](const auto&) { return take(); }});

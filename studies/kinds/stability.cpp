@@ -11,7 +11,7 @@ namespace acstudy {
 
 void read_stability(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "sweep", "printed"});
-  study.scene = read_scene(root.sub_table("scene"));
+  study.scene = read_scene_with_advection(root.sub_table("scene"));
   const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
   const std::vector<Subject> subjects = read_subjects(root, study.scene);
 

@@ -11,8 +11,8 @@ TITLE = "Asymptotic compatibility: claim by claim"
 ABOUT = """Every statement of the theory in the order of the paper, with all that was measured of it and the worst of
 it. The verdict is that of the worst. A statement that is <em>not so as printed</em> is expected to fail somewhere, and
 a remark with its findings says why and what holds instead. A negative control is a case in which the statement must
-fail, because one of its assumptions does; it shows that the measurement would see a failure, and counts as no evidence
-for the statement."""
+fail, because one of its assumptions does, or in which an error must settle; it shows that the measurement would see a
+failure, and counts as no evidence for the statement."""
 
 COLUMNS = ("statement", "what it says", "measured on", "worst observed", "verdict", "as expected", "figures")
 DETAILS = ("subject", "check", "observed", "verdict", "as expected", "reason")
@@ -50,9 +50,12 @@ def _row(statement, drawings):
     measured = ", ".join(counts) if statement.tested else ""
     if statement.controls:
         caught = sum(entry.as_expected for entry in statement.controls)
-        measured += (f'<br><span class="note">negative controls: {caught} of {len(statement.controls)} fail as they '
-                     "must</span>")
+        measured += (f'<br><span class="note">negative controls: {caught} of {len(statement.controls)} fail or '
+                     "settle as they must</span>")
     verdict = markup.badge(worst, worst.control)
+    if statement.unsharp:
+        measured += (f'<br><span class="note">{_number(len(statement.unsharp), "finding")} more: a bound is not '
+                     "attained</span>")
     if statement.refuted and not statement.departing:
         verdict = '<span class="badge bad">not so as printed</span>'
         measured += (f'<br><span class="note">{len(statement.refuted)} of {len(statement.tested)} show that it does not '
@@ -120,7 +123,8 @@ def entry_table(entries, label):
 
 def _as_expected(entry):
     said = markup.expected(entry)
-    role = "not so as printed" if entry.refuted else "negative control" if entry.control else ""
+    role = ("not so as printed" if entry.refuted else "not sharp" if entry.unsharp else
+            "negative control" if entry.control else "")
     return f'{said} <span class="note">{role}</span>' if role else said
 
 

@@ -39,6 +39,7 @@ class Entry:
     as_expected: bool
     control: bool       # must fail, because the statement does not apply
     refuted: bool       # the statement, as printed, is not true here, and the study expects that
+    unsharp: bool       # a bound that it states is not attained here, and the study expects that
     reason: str
     remark: str
 
@@ -56,7 +57,7 @@ class Statement:
     @property
     def tested(self):
         """The entries in which the statement has to hold."""
-        return tuple(entry for entry in self.entries if not entry.control)
+        return tuple(entry for entry in self.entries if not entry.control and not entry.unsharp)
 
     @property
     def controls(self):
@@ -66,6 +67,10 @@ class Statement:
     def refuted(self):
         """The entries that show that the statement, as printed, is not true."""
         return tuple(entry for entry in self.entries if entry.refuted)
+
+    @property
+    def unsharp(self):
+        return tuple(entry for entry in self.entries if entry.unsharp)
 
     @property
     def departing(self):
@@ -102,16 +107,15 @@ def entries(study):
 
 def of_finding(study, finding):
     i, margin = closest(finding.points)
+    # A study of the paper's statements that expects something else than a statement promises disputes it: its truth, or,
+    # where errors should grow with the bound, that the bound is attained.
+    disputed = study.kind in OF_OPERATORS and finding.expected != finding.promised
+    unsharp = finding.promised == "diverges"
     return Entry(study, finding.statement, finding.claim, finding.subject, finding.check, measured(finding),
                  finding.observed_order, margin if i is not None and finding.test == "bounds" else math.nan,
                  finding.verdict, " or ".join((finding.expected, *finding.also_expected)), finding.as_expected,
-                 finding.control and not refuted(study, finding), refuted(study, finding), finding.reason,
+                 finding.control and not disputed, disputed and not unsharp, disputed and unsharp, finding.reason,
                  finding.remark)
-
-
-def refuted(study, finding):
-    """A study of the paper's statements that expects something else than a statement promises refutes it."""
-    return study.kind in OF_OPERATORS and finding.expected != finding.promised
 
 
 def _of_series(study, series):
@@ -121,7 +125,8 @@ def _of_series(study, series):
     source = f"{series.source} source, {study.scene.name or 'scene of ' + study.name}"
     return Entry(study, statement, claim, names.full_name(series.scheme), f"{series.path}, {source}",
                  order_text(series), series.observed_order, math.nan, series.verdict, series.expected,
-                 series.as_expected, series.expected not in ("confirmed", "pre-asymptotic"), False, series.reason, "")
+                 series.as_expected, series.expected not in ("confirmed", "pre-asymptotic"), False, False,
+                 series.reason, "")
 
 
 def measured(finding):

@@ -142,8 +142,8 @@ class Finding:
 
     @property
     def control(self):
-        """Whether a failure is demanded here, to show that the measurement can see one."""
-        return self.expected != self.promised or self.promised == "violated"
+        """Whether a failure, or an error that settles, is demanded here, to show that the measurement can see one."""
+        return self.expected != self.promised or self.promised in ("violated", "stagnates")
 
 
 @dataclass(frozen=True)

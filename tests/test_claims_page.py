@@ -133,17 +133,23 @@ class Pages(ReportTest):
         self.assertNotIn('<span class="badge bad">not so as printed</span>', html)
         self.assertIn('class="departs"', html)
 
+    def test_a_bound_that_is_not_attained_is_no_failure_of_its_statement(self):
+        unsharp = finding(verdict="stagnates", promised="diverges", expected="stagnates", alarm=1, check="delta -> 0")
+        html = self.html(read(self.folder, kind="consistency", findings=[finding(verdict="holds"), unsharp]))
+        self.assertIn("1 finding more: a bound is not attained", html)
+        self.assertNotIn('<span class="badge bad">', html)
+
     def test_a_negative_control_is_no_alarm_unless_it_holds(self):
         caught = finding(verdict="violated", promised="violated", expected="violated", test="bounds",
                          value=[2] * 4, upper=1.0)
         missed = caught | dict(verdict="holds", as_expected=0, alarm=1, check="moved")
         html = self.html(read(self.folder, kind="stability", findings=[finding(), caught]))
         self.assertIn("All 2 results are as expected", html)
-        self.assertIn("negative controls: 1 of 1 fail as they must", html)
+        self.assertIn("negative controls: 1 of 1 fail or settle as they must", html)
         self.assertIn('<span class="badge control">violated</span>', html)
         self.assertNotIn('class="departs"', html)
         html = self.html(read(self.folder, kind="stability", findings=[finding(), caught, missed]))
-        self.assertIn("negative controls: 1 of 2 fail as they must", html)
+        self.assertIn("negative controls: 1 of 2 fail or settle as they must", html)
         self.assertIn('<span class="badge bad">holds</span>', html)
 
     def test_pages_link_to_each_other_and_to_figures_that_exist(self):

@@ -85,7 +85,8 @@ Finding printed_condition_on_uneven_gaps(const Subject& subject, const std::vect
   const FieldBounds fields = field_bounds(*subject.scene, 0.0);
   Finding finding =
       subject.finding("Lemma 3.3", "norm <= 1 + dt (||c_hat'|| + ||b'||)", {}, "max norm of I + dt R", Test::bounds);
-  finding.check = "gaps h/2, h/2, 3h/2, 3h/2, ..., delta just below 2h, CFL 1";
+  finding.check = "uneven gaps, h/2 h/2 3h/2 3h/2 ..., delta just below 2h, CFL 1";
+  finding.variable = "delta/h";
   finding.expected = Verdict::violated;
   finding.remark =
       "the proof takes reach_j/|x_i - x_j| for one; between two close neighbors and two just beyond the horizon it is "
@@ -102,7 +103,7 @@ Finding printed_condition_on_uneven_gaps(const Subject& subject, const std::vect
     finding.points.push_back({.N = count,
                               .h = h,
                               .delta = delta,
-                              .variable = h,
+                              .variable = delta / h,
                               .value = step_norm(placed, dt),
                               .upper = norm_bound(placed, dt, fields.c_hat_1 + fields.b_1)});
   }

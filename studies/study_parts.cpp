@@ -236,6 +236,8 @@ PathChoice read_path(const Table& table) {
   return path;
 }
 
+namespace {
+
 Stepping read_time(const Table& root) {
   const Table time = root.sub_table("time");
   time.allow({"integrator", "step"});
@@ -254,6 +256,17 @@ SourceRule read_source_rule(const Table& root) {
   return source.choice<SourceRule>(
       "rule", source.need("rule", "rule = \"gauss\""),
       {{"gauss", SourceRule::gauss}, {"gsl", SourceRule::gsl}, {"boost", SourceRule::boost}});
+}
+
+}  // namespace
+
+Stepping read_problem(const Table& root, Study& study) {
+  study.scene = read_scene(root.sub_table("scene"));
+  Stepping time = read_time(root);
+  study.integrator = time.integrator;
+  study.step_text = time.step.text();
+  study.source_rule = read_source_rule(root);
+  return time;
 }
 
 void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at) {

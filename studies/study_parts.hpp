@@ -54,14 +54,14 @@ void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place
 /// A verdict that a study may expect of an order.
 Verdict read_expected(const Table& table, const toml::node& node);
 
-/// [time] and [source]: how a study steps and how its sources are integrated.
+/// [time]: how a study steps.
 struct Stepping {
   const Integrator* integrator;
   Expression step;
   Place at_step;
 };
-Stepping read_time(const Table& root);
-SourceRule read_source_rule(const Table& root);
+/// [scene], [time] and [source] of a study that runs cases; what is read is set in `study`.
+Stepping read_problem(const Table& root, Study& study);
 
 /// The case of one scheme at N particles and the horizon `delta`.  @param at  the place to blame for a bad horizon
 Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,

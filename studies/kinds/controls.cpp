@@ -175,11 +175,7 @@ Expectations read_expectations(const Table& table, const std::vector<Column>& co
 
 void read_controls(const Table& root, Study& study) {
   root.allow({"study", "scene", "time", "source", "path", "consistency", "scheme", "control"});
-  study.scene = read_scene(root.sub_table("scene"));
-  const Stepping time = read_time(root);
-  study.integrator = time.integrator;
-  study.step_text = time.step.text();
-  study.source_rule = read_source_rule(root);
+  const Stepping time = read_problem(root, study);
   const auto scene = study.scene;
   const auto constant = std::make_shared<const Scene>(SceneText{.name = "",
                                                                 .period = "1",

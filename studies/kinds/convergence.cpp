@@ -9,11 +9,7 @@ namespace acstudy {
 
 void read_convergence(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "time", "path", "source"});
-  study.scene = read_scene(root.sub_table("scene"));
-  const Stepping time = read_time(root);
-  study.integrator = time.integrator;
-  study.step_text = time.step.text();
-  study.source_rule = read_source_rule(root);
+  const Stepping time = read_problem(root, study);
 
   const std::vector<Table> path_tables = root.array_of_tables("path");
   std::vector<PathChoice> paths;

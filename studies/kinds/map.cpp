@@ -125,11 +125,7 @@ void require_four(const Table& map, const char* key, std::size_t count) {
 
 void read_map(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "time", "source", "map"});
-  study.scene = read_scene(root.sub_table("scene"));
-  const Stepping time = read_time(root);
-  study.integrator = time.integrator;
-  study.step_text = time.step.text();
-  study.source_rule = read_source_rule(root);
+  const Stepping time = read_problem(root, study);
 
   const Table map = root.sub_table("map");
   map.allow({"delta", "N", "sources"});

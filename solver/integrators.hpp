@@ -1,41 +1,62 @@
 #pragma once
 
 /// @file
-/// Explicit strong-stability-preserving Runge-Kutta schemes in Shu-Osher form.
+/// Time integrators and the steps they take: explicit strong-stability-preserving Runge-Kutta schemes in Shu-Osher
+/// form, and L-stable diagonally implicit ones for stiff scenes.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "solver/particles.hpp"
 
 namespace acstudy {
 
-/// One stage: u <- (1 - weight) u^n + weight (u + dt rate(t^n + time dt, u)).
+/// One explicit stage: u <- (1 - weight) u^n + weight (u + dt rate(t^n + time dt, u)).
 struct Stage {
   double weight;
   double time;
 };
 
-/// A scheme is its table. Convex weights make every stage a convex combination of forward Euler steps, so the
-/// maximum-norm bounds of Lemmas 2.4 and 3.3 carry over at the same time step.
+/// One implicit stage: U with U - diagonal dt rate(t^n + time dt, U) = u^n + previous dt k_1, where k_1 is the rate
+/// that the first stage has found.
+struct ImplicitStage {
+  double diagonal;
+  double time;
+  double previous;
+};
+
+/// A scheme is its table: explicit stages or implicit ones. Convex weights make every explicit stage a convex
+/// combination of forward Euler steps, so the maximum-norm bounds of Lemmas 2.4 and 3.3 carry over at the same time
+/// step. The last implicit stage is u^{n+1} (stiffly accurate).
 struct Integrator {
   std::string_view name;
   int order;
-  std::span<const Stage> stages;
+  std::span<const Stage> stages = {};
+  std::span<const ImplicitStage> implicit_stages = {};
+
+  bool implicit() const { return !implicit_stages.empty(); }
+  std::size_t stage_count() const { return stages.size() + implicit_stages.size(); }
 };
 
 inline constexpr Stage forward_euler_stages[] = {{1.0, 0.0}};
 inline constexpr Stage ssprk2_stages[] = {{1.0, 0.0}, {0.5, 1.0}};
 inline constexpr Stage ssprk3_stages[] = {{1.0, 0.0}, {0.25, 1.0}, {2.0 / 3.0, 0.5}};
+inline constexpr ImplicitStage backward_euler_stages[] = {{1.0, 1.0, 0.0}};
+/// 1 - 1/sqrt(2), with which two stages of one diagonal are of second order and L-stable.
+inline constexpr double sdirk2_gamma = 0.29289321881345247560;
+inline constexpr ImplicitStage sdirk2_stages[] = {{sdirk2_gamma, sdirk2_gamma, 0.0},
+                                                  {sdirk2_gamma, 1.0, 1.0 - sdirk2_gamma}};
 
 inline constexpr Integrator integrators[] = {
-    {"forward-euler", 1, forward_euler_stages},
-    {"ssprk2", 2, ssprk2_stages},
-    {"ssprk3", 3, ssprk3_stages},
+    {"forward-euler", 1, forward_euler_stages},       {"ssprk2", 2, ssprk2_stages},     {"ssprk3", 3, ssprk3_stages},
+    {"backward-euler", 1, {}, backward_euler_stages}, {"sdirk2", 2, {}, sdirk2_stages},
 };
 
 /// Equal steps: the fewest with dt <= bound (T an exact multiple of the bound up to round-off counts as such).
@@ -43,21 +64,78 @@ inline std::int64_t steps_for(double T, double bound) {
   return static_cast<std::int64_t>(std::ceil(T / bound * (1.0 - 1e-12)));
 }
 
-/// Advances u from time 0 to T in `steps` equal steps.
+/// From t^n to t^{n+1}.
+struct TimeStep {
+  double begin, end;
+  double length() const { return end - begin; }
+  /// The last stage of a step and the first of the next see the same time, to the bit.
+  double at(double fraction) const { return fraction == 1.0 ? end : begin + fraction * (end - begin); }
+};
+
+/// T in `count` equal steps, t^n = n T / count.
+class EqualSteps {
+ public:
+  EqualSteps(double T, std::int64_t count) : T_(T), count_(count) {}
+  std::optional<TimeStep> next() {
+    if (n_ == count_) return std::nullopt;
+    const double begin = at(n_);
+    return TimeStep{begin, at(++n_)};
+  }
+
+ private:
+  double at(std::int64_t n) const {
+    return n == count_ ? T_ : static_cast<double>(n) * (T_ / static_cast<double>(count_));
+  }
+  double T_;
+  std::int64_t count_, n_ = 0;
+};
+
+/// Steps to T that a bound limits anew each time: the rest of T in the fewest equal steps within the bound, of which
+/// one is taken. So none is much smaller than the bound, and the last one ends at T.
+template <class Bound>
+class BoundedSteps {
+ public:
+  /// @param bound  bound(t) > 0: the largest step from t on
+  BoundedSteps(double T, Bound bound) : T_(T), bound_(std::move(bound)) {}
+  std::optional<TimeStep> next() {
+    if (t_ == T_) return std::nullopt;
+    const double begin = t_, count = std::max(1.0, std::ceil((T_ - t_) / bound_(t_) * (1.0 - 1e-12)));
+    t_ = count == 1.0 ? T_ : t_ + (T_ - t_) / count;
+    if (t_ == begin) throw std::domain_error("the time step has become too small to advance time");
+    return TimeStep{begin, t_};
+  }
+
+ private:
+  double T_;
+  Bound bound_;
+  double t_ = 0.0;
+};
+
+/// A system that is only ever stepped explicitly: no more than its rate.
+template <class Rate>
+struct ExplicitSystem {
+  Rate rate;
+};
+
+/// Advances u step by step.
 ///
-/// @param rate       rate(t, u, du) fills du = du/dt of all particles; it may wrap the ghosts of u
-/// @param keep_going called with n after each step n = 1 .. steps; false ends the run early
-/// @return           the number of steps done
-template <class Rate, class Observer>
-std::int64_t integrate(const Integrator& integrator, PeriodicArray& u, double T, std::int64_t steps, Rate&& rate,
+/// @param steps       `next()` gives a TimeStep until there is none
+/// @param system      `rate(t, u, du)` fills du = du/dt of all particles; it may wrap the ghosts of u. Implicit
+///                    integrators need `solve(t, scale, u)`, which replaces u by the U with U - scale rate(t, U) = u
+/// @param keep_going  called with n and the step after each step n = 1, 2, ...; false ends the run early
+/// @return            the number of steps done
+template <class Steps, class System, class Observer>
+std::int64_t integrate(const Integrator& integrator, PeriodicArray& u, Steps&& steps, System&& system,
                        Observer&& keep_going) {
-  const double dt = T / static_cast<double>(steps);
-  std::vector<double> u_n(u.size()), du(u.size());
+  std::vector<double> u_n, du(u.size());
+  if (integrator.stage_count() > 1) u_n.resize(u.size());
   const auto values = u.values();
-  for (std::int64_t n = 0; n < steps; ++n) {
-    if (integrator.stages.size() > 1) std::copy(values.begin(), values.end(), u_n.begin());
+  std::int64_t n = 0;
+  while (const std::optional<TimeStep> step = steps.next()) {
+    const double dt = step->length();
+    if (!u_n.empty()) std::copy(values.begin(), values.end(), u_n.begin());
     for (const Stage& stage : integrator.stages) {
-      rate((static_cast<double>(n) + stage.time) * dt, u, std::span<double>(du));
+      system.rate(step->at(stage.time), u, std::span<double>(du));
       if (stage.weight == 1.0) {
         for (std::size_t j = 0; j < u.size(); ++j) values[j] += dt * du[j];
       } else {
@@ -66,9 +144,24 @@ std::int64_t integrate(const Integrator& integrator, PeriodicArray& u, double T,
         }
       }
     }
-    if (!keep_going(n + 1)) return n + 1;
+    if constexpr (requires { system.solve(0.0, 0.0, u); }) {
+      for (const ImplicitStage& stage : integrator.implicit_stages) {
+        if (stage.previous != 0.0) {
+          for (std::size_t j = 0; j < u.size(); ++j) values[j] = u_n[j] + stage.previous * dt * du[j];
+        }
+        const double scale = stage.diagonal * dt;
+        system.solve(step->at(stage.time), scale, u);
+        if (&stage == &integrator.implicit_stages.front() && !u_n.empty()) {
+          for (std::size_t j = 0; j < u.size(); ++j) du[j] = (values[j] - u_n[j]) / scale;
+        }
+      }
+    } else if (integrator.implicit()) {
+      throw std::logic_error("an implicit integrator for a system that cannot be solved");
+    }
+    ++n;
+    if (!keep_going(n, *step)) break;
   }
-  return steps;
+  return n;
 }
 
 }  // namespace acstudy

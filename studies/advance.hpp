@@ -79,7 +79,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
     scheme.rate(values, du);
     for (std::size_t j = 0; j < count; ++j) du[j] += f[j];
   };
-  const auto keep_going = [&](std::int64_t n) {
+  const auto keep_going = [&](std::int64_t n, TimeStep) {
     constexpr std::int64_t between_checks = 64;
     if (n % between_checks == 0) {
       double sum = 0.0;
@@ -93,7 +93,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   std::int64_t done = 0;
   try {
     place(0.0);
-    done = integrate(*c.integrator, u, scene.T(), c.steps, rate, keep_going);
+    done = integrate(*c.integrator, u, EqualSteps(scene.T(), c.steps), ExplicitSystem{rate}, keep_going);
   } catch (const std::domain_error& error) {
     result.failure = error.what();
   }

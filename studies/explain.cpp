@@ -38,7 +38,7 @@ std::string left_out(const Study& study) {
   if (any([](const Series& s) { return s.cases.back().delta < s.cases.back().h; })) {
     line("neighbors beyond the nearest where the horizon is below the spacing: 1 in Model I, 2 in Model II");
   }
-  if (study.integrator->stages.size() == 1) line("stage storage: forward Euler has one stage");
+  if (study.integrator->stage_count() == 1) line("stage storage: the integrator has one stage");
   return out.empty() ? "  - nothing\n" : out;
 }
 

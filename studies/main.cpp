@@ -200,8 +200,8 @@ int list(const std::string& what) {
   if (what.empty() || what == "integrators") {
     heading("integrators");
     for (const Integrator& integrator : integrators) {
-      fmt::print("{}{:<35} order {}, {} stage(s)\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order,
-                 integrator.stages.size());
+      fmt::print("{}{:<35} order {}, {} stage(s){}\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order,
+                 integrator.stage_count(), integrator.implicit() ? ", implicit" : "");
     }
   }
   if (what.empty() || what == "scenes") {

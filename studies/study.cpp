@@ -28,7 +28,7 @@ std::string Case::key() const {
 double Case::estimated_work() const {
   const double sides = scheme.model == 1 ? 1.0 : 2.0;
   const double neighbors = sides * std::max(1.0, delta / h) + (nonlocal_source ? 20.0 * sides : 5.0);
-  return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stages.size()) *
+  return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stage_count()) *
          neighbors;
 }
 

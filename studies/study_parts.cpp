@@ -242,7 +242,9 @@ Stepping read_time(const Table& root) {
   const Table time = root.sub_table("time");
   time.allow({"integrator", "step"});
   std::vector<std::pair<std::string, const Integrator*>> words;
-  for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
+  for (const Integrator& integrator : integrators) {
+    if (!integrator.implicit()) words.emplace_back(integrator.name, &integrator);
+  }
   const Integrator* const integrator =
       time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), words);
   Expression step = time.expression("step", "step = \"h/4\"", {"h", "N"});

@@ -28,10 +28,11 @@ int main() {
   scheme.place(particles, ConstantVelocity{});
   acstudy::PeriodicArray u(N);
   for (double& value : u.values()) value = 3.0;
-  acstudy::integrate(
-      acstudy::integrators[2], u, T, acstudy::steps_for(T, period / N),
-      [&](double, acstudy::PeriodicArray& values, std::span<double> du) { scheme.rate(values, du); },
-      [](std::int64_t) { return true; });
+  acstudy::integrate(acstudy::integrators[2], u, acstudy::EqualSteps(T, acstudy::steps_for(T, period / N)),
+                     acstudy::ExplicitSystem{[&](double, acstudy::PeriodicArray& values, std::span<double> du) {
+                       scheme.rate(values, du);
+                     }},
+                     [](std::int64_t, acstudy::TimeStep) { return true; });
   double worst = 0.0;
   for (const double value : u.values()) worst = std::fmax(worst, std::fabs(value - 3.0));
   std::printf("largest change of a constant: %g\n", worst);

@@ -13,16 +13,32 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr auto to_the_end = [](std::int64_t) { return true; };
+constexpr auto to_the_end = [](std::int64_t, TimeStep) { return true; };
+
+/// u' = f(t, u), one unknown.
+template <class Rate>
+struct Scalar {
+  Rate f;
+  void rate(double t, PeriodicArray& u, std::span<double> du) const { du[0] = f(t, u[0]); }
+  /// Newton's method with a difference quotient.
+  void solve(double t, double scale, PeriodicArray& u) const {
+    const double right = u[0];
+    const auto residual = [&](double value) { return value - scale * f(t, value) - right; };
+    double value = right;
+    for (int i = 0; i < 30; ++i) {
+      const double step = 1e-6 * std::max(1.0, std::abs(value));
+      value -= residual(value) / ((residual(value + step) - residual(value - step)) / (2.0 * step));
+    }
+    u[0] = value;
+  }
+};
 
 /// u(T) for u' = rate(t, u), u(0) = 1.
 template <class Rate>
 double solve(const Integrator& integrator, Rate rate, double T, std::int64_t steps) {
   PeriodicArray u(1);
   u[0] = 1.0;
-  integrate(
-      integrator, u, T, steps,
-      [&](double t, PeriodicArray& values, std::span<double> du) { du[0] = rate(t, values[0]); }, to_the_end);
+  integrate(integrator, u, EqualSteps(T, steps), Scalar<Rate>{rate}, to_the_end);
   return u[0];
 }
 
@@ -62,6 +78,7 @@ TEST_CASE("every integrator has its declared order and no more") {
 
 TEST_CASE("one step on u' = lambda u is the Taylor polynomial of e^z to the order of the integrator") {
   for (const Integrator& integrator : integrators) {
+    if (integrator.implicit()) continue;
     for (const double z : {-1.7, -0.3, 0.4}) {
       double polynomial = 1.0, term = 1.0;
       for (int p = 1; p <= integrator.order; ++p) polynomial += term *= z / p;
@@ -73,19 +90,29 @@ TEST_CASE("one step on u' = lambda u is the Taylor polynomial of e^z to the orde
   }
 }
 
+TEST_CASE("one step on u' = lambda u is the rational function of an L-stable scheme") {
+  const double g = 1.0 - std::sqrt(0.5);
+  for (const double z : {-1e8, -30.0, -1.7, -0.3, 0.4}) {
+    const auto rate = [&](double, double u) { return z * u; };
+    CAPTURE(z);
+    CHECK_THAT(solve(integrators[3], rate, 1.0, 1), WithinAbs(1.0 / (1.0 - z), 1e-13));
+    CHECK_THAT(solve(integrators[4], rate, 1.0, 1),
+               WithinAbs((1.0 + (1.0 - 2.0 * g) * z) / ((1.0 - g * z) * (1.0 - g * z)), 1e-13));
+  }
+}
+
 TEST_CASE("stages are convex and taken at their times") {
   const std::vector<std::vector<double>> expected = {{0.0}, {0.0, 1.0}, {0.0, 1.0, 0.5}};
-  for (std::size_t i = 0; i < std::size(integrators); ++i) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
     INFO(integrators[i].name);
     std::vector<double> times;
     PeriodicArray u(1);
-    integrate(
-        integrators[i], u, 3.0, 2,
-        [&](double t, PeriodicArray&, std::span<double> du) {
-          times.push_back(t);
-          du[0] = 0.0;
-        },
-        to_the_end);
+    integrate(integrators[i], u, EqualSteps(3.0, 2),
+              ExplicitSystem{[&](double t, PeriodicArray&, std::span<double> du) {
+                times.push_back(t);
+                du[0] = 0.0;
+              }},
+              to_the_end);
     std::vector<double> all;
     for (const double start : {0.0, 1.5}) {
       for (const double time : expected[i]) all.push_back(start + 1.5 * time);
@@ -102,13 +129,12 @@ TEST_CASE("time is n dt, not a sum of steps") {
   constexpr std::int64_t steps = 1'000'000;
   double last = 0.0;
   PeriodicArray u(1);
-  integrate(
-      integrators[0], u, 1.0, steps,
-      [&](double t, PeriodicArray&, std::span<double> du) {
-        last = t;
-        du[0] = 0.0;
-      },
-      to_the_end);
+  integrate(integrators[0], u, EqualSteps(1.0, steps),
+            ExplicitSystem{[&](double t, PeriodicArray&, std::span<double> du) {
+              last = t;
+              du[0] = 0.0;
+            }},
+            to_the_end);
   // A running sum would be off by some 1e-11.
   CHECK_THAT(last, WithinAbs(1.0 - 1e-6, 1e-15));
 }
@@ -129,21 +155,54 @@ TEST_CASE("steps_for takes the fewest equal steps within the bound") {
   CHECK(steps_for(1.0, 2.0 * std::numbers::pi / 640.0) == 102);
 }
 
+TEST_CASE("bounded steps stay within the bound, end at T and are never much smaller") {
+  for (const double T : {1.0, 0.37, 12.5}) {
+    const auto bound = [](double t) { return 0.1 / (1.0 + t * t); };
+    BoundedSteps steps(T, bound);
+    double end = 0.0;
+    std::int64_t count = 0;
+    while (const auto step = steps.next()) {
+      CHECK(step->begin == end);
+      CHECK(step->length() <= bound(step->begin) * (1.0 + 1e-12));
+      CHECK(step->length() >= 0.5 * std::min(bound(step->begin), T));
+      end = step->end;
+      ++count;
+    }
+    CHECK(end == T);
+    CHECK(count >= static_cast<std::int64_t>(10.0 * (T + T * T * T / 3.0)));
+  }
+  // A bound that does not change gives equal steps.
+  BoundedSteps equal(1.0, [](double) { return 0.3; });
+  for (int n = 0; n < 4; ++n) CHECK_THAT(equal.next()->length(), WithinRel(0.25, 1e-14));
+  CHECK(!equal.next());
+  BoundedSteps stuck(1.0, [](double t) { return t == 0.0 ? 0.5 : 1e-300; });
+  CHECK(stuck.next());
+  CHECK_THROWS_AS(stuck.next(), std::domain_error);
+}
+
+TEST_CASE("an explicit system is refused by an implicit integrator") {
+  PeriodicArray u(1);
+  CHECK_THROWS_AS(integrate(integrators[3], u, EqualSteps(1.0, 1),
+                            ExplicitSystem{[](double, PeriodicArray&, std::span<double>) {}}, to_the_end),
+                  std::logic_error);
+}
+
 TEST_CASE("the observer sees every step and can end the run") {
   for (const Integrator& integrator : integrators) {
     INFO(integrator.name);
     PeriodicArray u(1);
     u[0] = 0.0;
     std::vector<std::int64_t> seen;
-    const auto rate = [](double, PeriodicArray&, std::span<double> du) { du[0] = 1.0; };
-    const std::int64_t done = integrate(integrator, u, 1.0, 10, rate, [&](std::int64_t n) {
+    const auto one = [](double, double) { return 1.0; };
+    const Scalar<decltype(one)> system{one};
+    const std::int64_t done = integrate(integrator, u, EqualSteps(1.0, 10), system, [&](std::int64_t n, TimeStep) {
       seen.push_back(n);
       return n < 4;
     });
     CHECK(done == 4);
     CHECK(seen == std::vector<std::int64_t>{1, 2, 3, 4});
     CHECK_THAT(u[0], WithinRel(0.4, 1e-14));
-    CHECK(integrate(integrator, u, 1.0, 10, rate, to_the_end) == 10);
+    CHECK(integrate(integrator, u, EqualSteps(1.0, 10), system, to_the_end) == 10);
     CHECK_THAT(u[0], WithinRel(1.4, 1e-14));
   }
 }

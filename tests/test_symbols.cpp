@@ -102,10 +102,9 @@ double error_after_steps(Scheme scheme, std::size_t N, double delta, int k, Comp
   std::vector<double> start;
   for (const double y : x) start.push_back(std::cos(k * y));
   PeriodicArray u = periodic(start);
-  integrate(
-      integrators[0], u, dt * static_cast<double>(steps), steps,
-      [&](double, PeriodicArray& values, std::span<double> du) { scheme.rate(values, du); },
-      [](std::int64_t) { return true; });
+  integrate(integrators[0], u, EqualSteps(dt * static_cast<double>(steps), steps),
+            ExplicitSystem{[&](double, PeriodicArray& values, std::span<double> du) { scheme.rate(values, du); }},
+            [](std::int64_t, TimeStep) { return true; });
   const Complex growth = std::exp(static_cast<double>(steps) * std::log(1.0 + dt * lambda));
   double worst = 0.0;
   for (std::size_t j = 0; j < N; ++j) {

@@ -312,7 +312,7 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
           .N = N,
           .h = h,
           .delta = delta,
-          .dt = scene.T() / static_cast<double>(steps),
+          .dt = steps == 0 ? 0.0 : scene.T() / static_cast<double>(steps),
           .steps = steps};
 }
 

@@ -116,10 +116,10 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
     // Once NaN, it stays: no comparison with a NaN is true.
     if (std::isnan(error) || error > result.error_linf) result.error_linf = error;
     l1 += width * error;
-    l2 += width * error * error;
+    l2 = std::hypot(l2, std::sqrt(width) * error);  // a square of an error may overflow
   }
   result.error_l1 = l1 / scene.period();
-  result.error_l2 = std::sqrt(l2 / scene.period());
+  result.error_l2 = l2 / std::sqrt(scene.period());
   if (!std::isfinite(result.error_linf) && result.failure.empty() && result.blow_up.empty()) {
     result.blow_up = "the solution is not finite at T";
   }

@@ -11,6 +11,7 @@ namespace acstudy {
 
 void ExtremeRows::add(Finding finding, std::function<void(Finding&)> measure) {
   std::string name = finding.label();
+  if (!labels_.insert(name).second) throw std::logic_error("two rows have the label " + name);
   measurements_.push_back({std::move(name), [prepared = std::move(finding), measure = std::move(measure)](const auto&) {
                              Finding measured = prepared;
                              try {
@@ -27,6 +28,7 @@ void ExtremeRows::add(Finding finding, std::function<void(Finding&)> measure) {
 
 void ExtremeRows::add_control(Finding finding, const std::string& why, std::function<void(Finding&)> measure,
                               Verdict expected) {
+  if (!controls_.insert(finding.claim + finding.label()).second) return;
   finding.promised = finding.expected = expected;
   finding.remark = "negative control: " + why;
   add(std::move(finding), std::move(measure));
@@ -83,8 +85,7 @@ double step_at_cfl_one(Subject subject, const std::vector<double>& x, double del
   return largest_step(subject, placed, StepCondition::corrected);
 }
 
-State run_freely(const Subject& subject, State start, double delta, double T, std::int64_t steps,
-                 const std::function<void(const TimeStep&, std::span<const double>)>& seen) {
+State run_freely(const Subject& subject, State start, double delta, double T, std::int64_t steps, const Seen& seen) {
   const Scene& scene = *subject.scene;
   const std::size_t count = start.x.size();
   const std::unique_ptr<Scheme> scheme = make_scheme(subject.scheme, scene, subject.mu);
@@ -105,7 +106,7 @@ State run_freely(const Subject& subject, State start, double delta, double T, st
     scheme->rate(values, du);
   };
   const auto keep_going = [&](std::int64_t, const TimeStep& step) {
-    if (seen) seen(step, u.values());
+    if (seen) seen(step, trajectories ? trajectories->at(step.end) : particles.x.values(), u.values());
     return true;
   };
   place(start.x);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,15 +28,18 @@ inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 class ExtremeRows {
  public:
   /// @param finding  without points
-  /// @param measure  gives it its points, and a remark if it needs one
+  /// @param measure  gives it its points
+  /// @throws std::logic_error if another one has the same label
   void add(Finding finding, std::function<void(Finding&)> measure);
-  /// The same as a negative control; `why` it must fail.
+  /// The same as a negative control; `why` it must fail. One that is there already is not added again: the schemes of
+  /// both divergences have the same mistakes.
   void add_control(Finding finding, const std::string& why, std::function<void(Finding&)> measure,
                    Verdict expected = Verdict::violated);
 
   std::vector<Measurement> take() { return std::move(measurements_); }
 
  private:
+  std::set<std::string> labels_, controls_;
   std::vector<Measurement> measurements_;
 };
 
@@ -63,6 +67,11 @@ std::vector<SchemeChoice> standing_schemes(const Extremes& extremes);
 
 /// Round-off of a sum over the neighbors of a particle whose terms sum to one: an ulp per neighbor and eight more.
 inline double row_round_off(const Particles& particles) { return (2.0 * particles.windows.widest + 8.0) * epsilon; }
+/// Round-off of a forward Euler step within CFL 1, relative to max |u|. In Model II the terms of D sum to two, one with
+/// u_j and one with its neighbors, and those of A to no more.
+inline double step_round_off(const Subject& subject, const Particles& particles) {
+  return (subject.scheme.model == 2 ? 4.0 : 1.0) * row_round_off(particles);
+}
 
 /// The largest step of the scheme itself, also for one with a mistake: c_hat dt sum W_k = 1 or its twin in Model II.
 double step_at_cfl_one(Subject subject, const std::vector<double>& x, double delta);
@@ -72,10 +81,12 @@ struct State {
   std::vector<double> x, u;
 };
 
+/// What is looked at after each step: the step, positions and values at its end.
+using Seen = std::function<void(const TimeStep&, std::span<const double> x, std::span<const double> u)>;
+
 /// A run by forward Euler without source, whose particles follow the scene's flow if it has one.
-/// @param seen  called after each step, where given
 State run_freely(const Subject& subject, State start, double delta, double T, std::int64_t steps,
-                 const std::function<void(const TimeStep&, std::span<const double>)>& seen = {});
+                 const Seen& seen = {});
 
 /// The case of a subject on the uniform start, its source that of the PDE, in `steps` equal steps to the scene's T.
 Case case_of(const Subject& subject, std::int64_t N, double delta, std::int64_t steps,

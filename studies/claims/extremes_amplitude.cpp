@@ -80,7 +80,7 @@ void add_rows_of_amplitude(ExtremeRows& rows, const Extremes& extremes) {
       rows.add(named(bitwise, "2^996, 2^-996"), [=](Finding& row) { compare_runs(row, subject, ratio, binary); });
       rows.add(named(rounded, "1e300, 1e-300"), [=](Finding& row) { compare_runs(row, subject, ratio, decimal); });
       if (ratio < 1.0) continue;
-      rows.add_control(named(bitwise, "1e300, 1e-300"), "these are no powers of two", [=](Finding& row) {
+      rows.add_control(named(bitwise, "1e300, 1e-300, to the bit"), "these are no powers of two", [=](Finding& row) {
         compare_runs(row, subject, ratio, decimal);
         for (Point& point : row.points) {
           if (point.label.rfind("u,", 0) == 0) point.upper = 0.0;

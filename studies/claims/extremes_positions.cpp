@@ -103,7 +103,7 @@ void add_nearest(ExtremeRows& rows, const SchemeChoice& scheme) {
   const auto moment_of = [&](const Subject& one) {
     Finding finding = one.finding(coincident, "a gap of one ulp: weights are finite, their first moment one", {},
                                   "max |first moment - 1|", Test::bounds);
-    finding.check = "uniform but for one gap of an ulp";
+    finding.check = "uniform but for one gap of an ulp, first moment";
     return finding;
   };
   rows.add(moment_of(subject), [=](Finding& row) { at_each(row, subject, first_moment); });
@@ -120,7 +120,7 @@ void add_nearest(ExtremeRows& rows, const SchemeChoice& scheme) {
   const auto step = [=](Finding& row, double cfl) {
     at_each(row, subject, [&](PlacedScheme& placed) {
       const double dt = cfl * largest_step(subject, placed, StepCondition::corrected);
-      return Point{.value = step_norm(placed, dt), .upper = 1.0 + row_round_off(placed.particles())};
+      return Point{.value = step_norm(placed, dt), .upper = 1.0 + step_round_off(subject, placed.particles())};
     });
   };
   rows.add(norm_at(1.0), [=](Finding& row) { step(row, 1.0); });

@@ -23,18 +23,18 @@ double largest_horizon(const Scene& scene) { return std::nextafter(0.5 * scene.p
 // ------------------------------------------------------------------------------------------------- number of particles
 
 constexpr std::int64_t few[] = {3, 4, 5, 7};
-const std::string numbers = "N = 3 to 10^6";
+std::string numbers(std::int64_t most) { return fmt::format("N = 3 to {}", most); }
 
-void add_few_particles(ExtremeRows& rows, const SchemeChoice& scheme) {
+void add_few_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject subject = subject_on(scheme, scene_with("1"));
   const Sweep sweep{{std::begin(few), std::end(few)}, {0.3, 1.0, 1.3}, {largest_horizon(*subject.scene)}};
   const auto named = [&](const std::string& check) {
-    return subject.finding(numbers, "N = 3, 4, 5, 7, c constant: a step at CFL 1 has the max norm 1", check,
+    return subject.finding(numbers(most), "N = 3, 4, 5, 7, c constant: a step at CFL 1 has the max norm 1", check,
                            "max norm of I + dt R", Test::bounds);
   };
-  rows.add(named("CFL 1"),
+  rows.add(named("N = 3 to 7, CFL 1"),
            [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected)); });
-  rows.add_control(named("CFL 1.5"), "beyond the condition",
+  rows.add_control(named("N = 3 to 7, CFL 1.5"), "beyond the condition",
                    [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected, 1.5)); });
 }
 
@@ -57,19 +57,20 @@ void run_few(Finding& row, const Subject& subject, double cfl) {
                             .delta = ratio * h,
                             .variable = ratio,
                             .value = max_norm(end.u),
-                            .upper = std::exp(growth * T) *
-                                     (1.0 + static_cast<double>(steps) * static_cast<double>(2 * N + 8) * epsilon)});
+                            .upper = std::exp(growth * T) * (1.0 + static_cast<double>(steps) * 4.0 *
+                                                                       static_cast<double>(2 * N + 8) * epsilon)});
     }
   }
   row.variable = "delta/h";
 }
 
-void add_few_moving_particles(ExtremeRows& rows, const SchemeChoice& scheme) {
+void add_few_moving_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject carried = subject_on(scheme, scene_with("1", "1/2"));
   const Subject paper = subject_on(scheme, scene_named("lee-du-2019"));
-  const auto named = [](const Subject& subject, const std::string& check) {
-    return subject.finding(numbers, "N = 3, 4, 5, 7, moving: max |u| grows by at most exp(T (||c_hat'|| + ||b'||))",
-                           check, "max |u(T)| / max |u(0)|", Test::bounds);
+  const auto named = [most](const Subject& subject, const std::string& check) {
+    return subject.finding(numbers(most),
+                           "N = 3, 4, 5, 7, moving: max |u| grows by at most exp(T (||c_hat'|| + ||b'||))", check,
+                           "max |u(T)| / max |u(0)|", Test::bounds);
   };
   rows.add(named(carried, "c = 1, b = 1/2, CFL 1"), [=](Finding& row) { run_few(row, carried, 1.0); });
   rows.add(named(paper, "scene lee-du-2019"), [=](Finding& row) { run_few(row, paper, 1.0); });
@@ -105,17 +106,18 @@ void add_many_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int6
   const Subject subject = subject_on(scheme, scene_with("1"));
   const std::int64_t fewer = std::min<std::int64_t>(most, 10'000);
   const auto norm_of = [&](const std::string& check) {
-    return subject.finding(numbers, fmt::format("N = {}, c constant: a step at CFL 1 has the max norm 1", most), check,
-                           "max norm of I + dt R", Test::bounds);
+    return subject.finding(numbers(most), fmt::format("N = {}, c constant: a step at CFL 1 has the max norm 1", most),
+                           check, "max norm of I + dt R", Test::bounds);
   };
   const auto norm = [subject](Finding& row, std::int64_t N, double cfl) {
     adopt(row, step_is_bounded(subject, {{N}, {1.5}, {}}, StepCondition::corrected, cfl));
   };
-  rows.add(norm_of("CFL 1"), [=](Finding& row) { norm(row, most, 1.0); });
-  rows.add_control(norm_of("CFL 1.5"), "beyond the condition", [=](Finding& row) { norm(row, fewer, 1.5); });
+  rows.add(norm_of("delta = 1.5h, CFL 1"), [=](Finding& row) { norm(row, most, 1.0); });
+  rows.add_control(norm_of("delta = 1.5h, CFL 1.5"), "beyond the condition",
+                   [=](Finding& row) { norm(row, fewer, 1.5); });
 
   const auto steps_of = [&](const Subject& one) {
-    return one.finding(numbers, fmt::format("N = {}: ten steps are off by at most ten truncation errors", most),
+    return one.finding(numbers(most), fmt::format("N = {}: ten steps are off by at most ten truncation errors", most),
                        "delta = 1.5h, CFL 1/4", "max |u - exact|", Test::bounds);
   };
   rows.add(steps_of(subject), [=](Finding& row) { take_ten_steps(row, subject, most); });
@@ -160,7 +162,7 @@ void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
     return subject.finding(horizons,
                            scheme.model == 1 ? "below every gap the rates are the same, bit by bit, whatever delta"
                                              : "below every gap the rates are the same to round-off, whatever delta",
-                           check, "max |rate - rate at 0.9 h_min| / sum of |terms|", Test::bounds);
+                           "rates, " + check, "max |rate - rate at 0.9 h_min| / sum of |terms|", Test::bounds);
   };
   rows.add(same("delta = 1e-12 to 1/2 h_min"),
            [=](Finding& row) { compare_rates_below(row, subject, below_every_gap); });
@@ -171,7 +173,7 @@ void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
     return subject.finding(horizons,
                            scheme.model == 1 ? "below every gap Model I is the upwind difference (Remark 2.1)"
                                              : "below every gap Model II is the central difference with viscosity",
-                           check, "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
+                           "matrix, " + check, "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
   };
   rows.add(difference("delta = 1e-12 to 1/2 h_min"), [=](Finding& row) {
     for (const double ratio : below_every_gap) adopt(row, nearest_neighbor_rows(subject, {48}, ratio));
@@ -221,7 +223,7 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
   const auto moment = [&](const Subject& one) {
     return one.finding(horizons,
                        scheme.model == 1 ? "at the largest, sum d_k W_k = 1" : "at the largest, sum z_k W_k / N_j = 1",
-                       check, "max |sum - 1|", Test::bounds);
+                       check + ", first moment", "max |sum - 1|", Test::bounds);
   };
   rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, sweep)); });
   const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
@@ -283,32 +285,32 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
 
 void add_singular_kernels(ExtremeRows& rows, const SchemeChoice& scheme) {
   const Subject subject = subject_on(scheme, scene_named("lee-du-2019"));
-  const auto named = [&](const std::string& claim, Test test, const std::string& quantity) {
-    Finding finding = subject.finding(exponents, claim, "delta = 4.5h, alpha = 1.9 to 1.999999", quantity, test);
-    finding.subject += " with alpha -> 2";
+  const auto named = [&](const std::string& claim, Test test, const std::string& to) {
+    Finding finding = subject.finding(
+        exponents, claim,
+        fmt::format("delta = 4.5h, alpha = 1.9 to 1.999999, {}{} difference", test == Test::order ? "" : "bound, ", to),
+        fmt::format("max |rate - that of the {} difference|", to), test);
+    finding.subject.replace(finding.subject.rfind("power"), std::string::npos, "power(alpha)");
     finding.theory_order = 1.0;
     return finding;
   };
   const std::string to_upwind = "Model I goes to the upwind difference like 2 - alpha";
-  rows.add(named(to_upwind, Test::order, "max |rate - that of the upwind difference|"),
-           [=](Finding& row) { approach_upwind(row, subject, true); });
+  rows.add(named(to_upwind, Test::order, "upwind"), [=](Finding& row) { approach_upwind(row, subject, true); });
   rows.add_control(
-      named(to_upwind, Test::order, "max |rate - that of the central difference|"),
-      "it does not go to the central difference", [=](Finding& row) { approach_upwind(row, subject, false); },
-      Verdict::stagnates);
+      named(to_upwind, Test::order, "central"), "it does not go to the central difference",
+      [=](Finding& row) { approach_upwind(row, subject, false); }, Verdict::stagnates);
   const std::string within = "within (2 - alpha) log(delta/h) delta (||g_xx|| + ||b''|| ||u||) / 2 of it";
-  rows.add(named(within, Test::bounds, "max |rate - that of the upwind difference|"),
-           [=](Finding& row) { approach_upwind(row, subject, true); });
-  rows.add_control(named(within, Test::bounds, "max |rate - that of the central difference|"),
-                   "it does not go to the central difference",
+  rows.add(named(within, Test::bounds, "upwind"), [=](Finding& row) { approach_upwind(row, subject, true); });
+  rows.add_control(named(within, Test::bounds, "central"), "it does not go to the central difference",
                    [=](Finding& row) { approach_upwind(row, subject, false); });
 }
 
 }  // namespace
 
 void add_rows_of_resolution(ExtremeRows& rows, const Extremes& extremes) {
-  for (const SchemeChoice& scheme : standing_schemes(extremes)) add_few_particles(rows, scheme);
-  for (const SchemeChoice& scheme : extremes.schemes) add_few_moving_particles(rows, scheme);
+  for (const SchemeChoice& scheme : standing_schemes(extremes))
+    add_few_particles(rows, scheme, extremes.most_particles);
+  for (const SchemeChoice& scheme : extremes.schemes) add_few_moving_particles(rows, scheme, extremes.most_particles);
   for (const SchemeChoice& scheme : standing_schemes(extremes))
     add_many_particles(rows, scheme, extremes.most_particles);
 

@@ -106,7 +106,7 @@ void predict_norm(Finding& row, const Subject& subject, const std::vector<double
     const double largest = step_at_cfl_one(subject, x, ratio * h);
     for (const double nu : cfls) {
       const double predicted = stable ? 1.0 : std::abs(1.0 - nu) + nu;
-      const double round_off = predicted * row_round_off(placed.particles());
+      const double round_off = predicted * step_round_off(subject, placed.particles());
       row.points.push_back({.N = 64,
                             .h = h,
                             .delta = ratio * h,
@@ -132,7 +132,7 @@ void predict_growth(Finding& row, const Subject& subject, bool sawtooth) {
     const std::int64_t steps = 40;
     const double dt = nu * largest;
     run_freely(subject, {x, u}, 0.5 * h, static_cast<double>(steps) * dt, steps,
-               [&](const TimeStep&, std::span<const double> values) {
+               [&](const TimeStep&, std::span<const double>, std::span<const double> values) {
                  predicted *= std::abs(1.0 - 2.0 * nu);
                  const double off = std::abs(max_norm({values.begin(), values.end()}) / predicted - 1.0);
                  if (worse(off, farthest)) farthest = off;
@@ -193,7 +193,7 @@ void step_often(Finding& row, const Subject& subject, Followed followed, std::in
   const double start = sum_of(u), dt = 0.5 * step_at_cfl_one(subject, x, delta);
   double farthest = 0.0;
   run_freely(subject, {x, u}, delta, static_cast<double>(steps) * dt, steps,
-             [&](const TimeStep&, std::span<const double> values) {
+             [&](const TimeStep&, std::span<const double>, std::span<const double> values) {
                const double out = followed == Followed::constant ? excursion(values, 1.0, 1.0)
                                   : followed == Followed::range  ? excursion(values, 0.0, 1.0)
                                                                  : std::abs(sum_of(values) / start - 1.0);
@@ -205,33 +205,33 @@ void step_often(Finding& row, const Subject& subject, Followed followed, std::in
                         .h = h,
                         .delta = delta,
                         .value = farthest,
-                        .upper = static_cast<double>(steps) * row_round_off(particles)});
+                        .upper = static_cast<double>(steps) * step_round_off(subject, particles)});
 }
 
 void add_many_steps(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const auto scene = scene_with("1"), varying = scene_with("1 + sin(2*pi*x)/2");
-  const std::string statement = "10^6 steps", check = fmt::format("N = 16, {} steps", most);
+  const std::string statement = fmt::format("{} steps", most);
   const std::int64_t fewer = std::min<std::int64_t>(most, 1000);
-  const std::string short_check = fmt::format("N = 16, {} steps", fewer);
-  const auto add = [&](const std::string& claim, const std::string& quantity, Followed followed, const Subject& right,
-                       const Subject& wrong, const std::string& why) {
-    rows.add(right.finding(statement, claim, check, quantity, Test::bounds),
+  const auto add = [&](const std::string& claim, const std::string& quantity, const std::string& followed_as,
+                       Followed followed, const Subject& right, const Subject& wrong, const std::string& why) {
+    rows.add(right.finding(statement, claim, "N = 16, " + followed_as, quantity, Test::bounds),
              [=](Finding& row) { step_often(row, right, followed, most); });
-    rows.add_control(wrong.finding(statement, claim, short_check, quantity, Test::bounds), why,
-                     [=](Finding& row) { step_often(row, wrong, followed, fewer); });
+    rows.add_control(wrong.finding(statement, claim, fmt::format("N = 16, {}, {} steps", followed_as, fewer), quantity,
+                                   Test::bounds),
+                     why, [=](Finding& row) { step_often(row, wrong, followed, fewer); });
   };
   const Subject steady = subject_on(scheme, scene), uneven = subject_on(scheme, varying);
-  add("c constant: constants drift by round-off alone", "max |u - 1|", Followed::constant, steady, uneven,
+  add("c constant: constants drift by round-off alone", "max |u - 1|", "u = 1", Followed::constant, steady, uneven,
       "constants are not steady where c varies");
-  add("c constant: values stay between the initial ones", "largest excursion", Followed::range, steady,
+  add("c constant: values stay between the initial ones", "largest excursion", "range", Followed::range, steady,
       mistaken(steady, "downwind", "no viscosity"), "a scheme that is not stable");
-  add("c > 0 varying, equal gaps: sum |u_j| stays, for positive u", "max |sum |u_j| / its start - 1|", Followed::sum,
-      uneven, mistaken(uneven, "downwind", "no viscosity"), "a scheme that is not positive");
+  add("c > 0 varying, equal gaps: sum |u_j| stays, for positive u", "max |sum |u_j| / its start - 1|", "sum",
+      Followed::sum, uneven, mistaken(uneven, "downwind", "no viscosity"), "a scheme that is not positive");
 }
 
 void add_time_levels(ExtremeRows& rows, std::int64_t most) {
   const auto named = [&](const std::string& check) {
-    return Finding{.statement = "10^6 steps",
+    return Finding{.statement = fmt::format("{} steps", most),
                    .claim = "time levels are n T/count to the last rounding, and the last one is T",
                    .subject = "time levels",
                    .check = check,
@@ -260,9 +260,8 @@ void add_time_levels(ExtremeRows& rows, std::int64_t most) {
     }
     row.variable = "T";
   };
-  rows.add(named(fmt::format("{} steps", most)), [=](Finding& row) { compare(row, false); });
-  rows.add_control(named(fmt::format("{} steps, time summed up", most)), "roundings of a sum add up",
-                   [=](Finding& row) { compare(row, true); });
+  rows.add(named("t = n T/count"), [=](Finding& row) { compare(row, false); });
+  rows.add_control(named("time summed up"), "roundings of a sum add up", [=](Finding& row) { compare(row, true); });
 }
 
 }  // namespace

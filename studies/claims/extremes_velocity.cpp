@@ -149,7 +149,7 @@ void add_lagrangian(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement a
 
   const auto exact = [&](const Subject& subject) {
     return subject.finding(lagrangian, "local divergence: the equation is met to round-off, whatever delta",
-                           "scene lagrangian", "max |rate + f - du/dt|", Test::bounds);
+                           "scene lagrangian, to round-off", "max |rate + f - du/dt|", Test::bounds);
   };
   rows.add(exact(with_local), [=](Finding& row) { leave_of_equation(row, with_local, true); });
   rows.add_control(exact(with_nonlocal), "its divergence is not exact",
@@ -157,7 +157,7 @@ void add_lagrangian(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement a
 
   const auto consistent = [&](const Subject& subject) {
     return subject.finding(lagrangian, "nonlocal divergence: what is left is the consistency error of b'",
-                           "scene lagrangian", "max |rate + f - du/dt|", Test::bounds);
+                           "scene lagrangian, to O(max(h, delta))", "max |rate + f - du/dt|", Test::bounds);
   };
   rows.add(consistent(with_nonlocal), [=](Finding& row) { leave_of_equation(row, with_nonlocal, false); });
   const Subject without = mistaken(with_local, "no divergence term", "no divergence term");
@@ -231,11 +231,11 @@ void add_zero_of_velocity(ExtremeRows& rows, const SchemeChoice& scheme) {
       return one.finding(zero, "Model I looks right where c_hat is zero", where, "share of neighbors on the right",
                          Test::bounds);
     };
-    rows.add(side(subject, check), [=](Finding& row) { side_at_zero(row, subject); });
+    rows.add(side(subject, check + ", side"), [=](Finding& row) { side_at_zero(row, subject); });
     if (fields.b) continue;
     const std::string positive = "1e-300 + abs(" + fields.c + ")";
     const Subject left = subject_on(scheme, scene_with(positive));
-    rows.add_control(side(left, "c = " + positive + ", x_0 = 0"), "c_hat is positive, if only just",
+    rows.add_control(side(left, "c = " + positive + ", x_0 = 0, side"), "c_hat is positive, if only just",
                      [=](Finding& row) { side_at_zero(row, left); });
   }
 }

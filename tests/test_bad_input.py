@@ -297,7 +297,7 @@ STUDIES = {
     # Scenes
     "zero period": (inline(('"2*pi"', "@0")), "period = 0; it must be positive and finite"),
     "negative period": (inline(('"2*pi"', '"@-2*pi"')), "period = -6.28319; it must be positive and finite"),
-    "negative final time": (bad((USE, USE + "\nT = @-1")), "T = -1; it must be positive and finite"),
+    "negative final time": (bad((USE, USE + "\nT = @-1")), "T = -1; it must be zero or positive and finite"),
     "infinite final time": (bad((USE, USE + "\nT = @inf")), "T = inf; it must be finite"),
     "velocity not periodic": (inline(("cos(2*x)/3", "@x")),
                               "c is not periodic: c(x + 6.28319) and c(x) differ by 6.28"),

@@ -24,6 +24,8 @@ void read_controls(const Table& root, Study& study);
 /// Errors over the plane of horizon and spacing, against the local and the nonlocal solution: in which limits a scheme
 /// converges, and to what. Theorems 2.6 - 2.8, 3.5 - 3.7.
 void read_map(const Table& root, Study& study);
+/// What is to be expected at the ends of every range, and what is measured there.
+void read_extremes(const Table& root, Study& study);
 /// What part of the finest errors of convergence studies is of the time step, of the source's quadrature, of round-off.
 void read_pollution(const Table& root, Study& study);
 /// The judge on synthetic series whose right verdict is known.
@@ -45,6 +47,7 @@ inline constexpr std::array kinds = {
     Kind{"stability", "max norm of a forward Euler step", read_stability},
     Kind{"controls", "which check notices which deliberate mistake", read_controls},
     Kind{"map", "errors over the plane of horizon and spacing", read_map},
+    Kind{"extremes", "expectation and observation at the ends of every range", read_extremes},
     Kind{"pollution", "parts of the finest errors that are not of the scheme in space", read_pollution},
     Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},
     Kind{"coverage", "how often the 95 % interval contains the true order", read_coverage},

@@ -168,9 +168,11 @@ std::span<const double> Trajectories::at(double t) {
     // Between two stages a smooth flow takes one step or a few.
     gsl_odeiv2_driver_set_nmax(driver.get(), 10000);
     double now = t_;
-    if (gsl_odeiv2_driver_apply(driver.get(), &now, t, x_.data()) != GSL_SUCCESS) {
+    std::vector<double> x = x_;
+    if (gsl_odeiv2_driver_apply(driver.get(), &now, t, x.data()) != GSL_SUCCESS) {
       throw std::domain_error(fmt::format("the flow x' = b(x) cannot be integrated from t = {} to {}", t_, t));
     }
+    x_ = std::move(x);
   }
   t_ = t;
   return x_;

@@ -25,6 +25,7 @@ constexpr NamedVerdict names[] = {
     {Verdict::inconclusive, "inconclusive"},
     {Verdict::holds, "holds"},
     {Verdict::violated, "violated"},
+    {Verdict::stable, "stable"},
 };
 
 /// Errors of this size are round-off of a solution of order one, accumulated over a run.
@@ -343,7 +344,8 @@ std::optional<Verdict> verdict_from(std::string_view text) {
 }
 
 bool meets(Verdict verdict, Verdict expected) {
-  return verdict == expected || (expected == Verdict::confirmed && verdict == Verdict::pre_asymptotic);
+  return verdict == expected || (expected == Verdict::confirmed && verdict == Verdict::pre_asymptotic) ||
+         (expected == Verdict::stable && verdict != Verdict::unstable);
 }
 
 Judgement judge(std::span<const Level> levels, double theory_order, const JudgeOptions& options) {

@@ -26,6 +26,7 @@ enum class Verdict {
   inconclusive,    ///< the levels do not settle the question; the reason says why
   holds,           ///< a bound or identity is met: not of an order
   violated,        ///< it is not
+  stable,          ///< never given, only expected where no order can be seen: met by all but `unstable`
 };
 
 std::string_view name_of(Verdict verdict);
@@ -77,7 +78,7 @@ Judgement judge(std::span<const Level> levels, double theory_order, const JudgeO
 Judgement judge(std::span<const Level> levels, double theory_order);
 
 /// True if the verdict is what a study expects; "confirmed" is met by `pre_asymptotic` too, since both say that
-/// theory's order holds.
+/// theory's order holds, and "stable" by every verdict but `unstable`.
 bool meets(Verdict verdict, Verdict expected);
 
 }  // namespace acstudy

@@ -64,34 +64,33 @@ inline std::int64_t steps_for(double T, double bound) {
   return static_cast<std::int64_t>(std::ceil(T / bound * (1.0 - 1e-12)));
 }
 
-/// From t^n to t^{n+1}.
+/// From t^n to t^{n+1}. Steps of one length have it to the bit, though the difference of their times is rounded.
 struct TimeStep {
-  double begin, end;
-  double length() const { return end - begin; }
+  double begin, end, dt;
   /// The last stage of a step and the first of the next see the same time, to the bit.
-  double at(double fraction) const { return fraction == 1.0 ? end : begin + fraction * (end - begin); }
+  double at(double fraction) const { return fraction == 1.0 ? end : begin + fraction * dt; }
 };
 
-/// T in `count` equal steps, t^n = n T / count.
+/// T in `count` equal steps, t^n = n T / count.  T = 0 takes none.
 class EqualSteps {
  public:
-  EqualSteps(double T, std::int64_t count) : T_(T), count_(count) {}
+  EqualSteps(double T, std::int64_t count)
+      : T_(T), dt_(count == 0 ? 0.0 : T / static_cast<double>(count)), count_(count) {}
   std::optional<TimeStep> next() {
     if (n_ == count_) return std::nullopt;
     const double begin = at(n_);
-    return TimeStep{begin, at(++n_)};
+    return TimeStep{begin, at(++n_), dt_};
   }
 
  private:
-  double at(std::int64_t n) const {
-    return n == count_ ? T_ : static_cast<double>(n) * (T_ / static_cast<double>(count_));
-  }
-  double T_;
+  double at(std::int64_t n) const { return n == count_ ? T_ : static_cast<double>(n) * dt_; }
+  double T_, dt_;
   std::int64_t count_, n_ = 0;
 };
 
 /// Steps to T that a bound limits anew each time: the rest of T in the fewest equal steps within the bound, of which
-/// one is taken. So none is much smaller than the bound, and the last one ends at T.
+/// one is taken. So none is much smaller than the bound, the last one ends at T, and while the bound stays the steps
+/// are equal.
 template <class Bound>
 class BoundedSteps {
  public:
@@ -99,16 +98,23 @@ class BoundedSteps {
   BoundedSteps(double T, Bound bound) : T_(T), bound_(std::move(bound)) {}
   std::optional<TimeStep> next() {
     if (t_ == T_) return std::nullopt;
-    const double begin = t_, count = std::max(1.0, std::ceil((T_ - t_) / bound_(t_) * (1.0 - 1e-12)));
-    t_ = count == 1.0 ? T_ : t_ + (T_ - t_) / count;
+    const double begin = t_;
+    if (const double limit = bound_(t_); limit != limit_) {
+      limit_ = limit;
+      left_ = std::max(1.0, std::ceil((T_ - t_) / limit * (1.0 - 1e-12)));
+      dt_ = (T_ - t_) / left_;
+    }
+    left_ -= 1.0;
+    t_ = left_ == 0.0 ? T_ : t_ + dt_;
     if (t_ == begin) throw std::domain_error("the time step has become too small to advance time");
-    return TimeStep{begin, t_};
+    return TimeStep{begin, t_, dt_};
   }
 
  private:
   double T_;
   Bound bound_;
-  double t_ = 0.0;
+  double t_ = 0.0, limit_ = 0.0;
+  double dt_ = 0.0, left_ = 0.0;  ///< the equal steps to T at this limit
 };
 
 /// A system that is only ever stepped explicitly: no more than its rate.
@@ -132,7 +138,7 @@ std::int64_t integrate(const Integrator& integrator, PeriodicArray& u, Steps&& s
   const auto values = u.values();
   std::int64_t n = 0;
   while (const std::optional<TimeStep> step = steps.next()) {
-    const double dt = step->length();
+    const double dt = step->dt;
     if (!u_n.empty()) std::copy(values.begin(), values.end(), u_n.begin());
     for (const Stage& stage : integrator.stages) {
       system.rate(step->at(stage.time), u, std::span<double>(du));

@@ -4,6 +4,7 @@
 /// Model I: upwind kernel. Stationary (2.4), moving with local (2.9) or nonlocal divergence (2.11), both sides.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -11,6 +12,7 @@
 
 #include "solver/kernels.hpp"
 #include "solver/particles.hpp"
+#include "solver/rate_matrix.hpp"
 #include "solver/velocity.hpp"
 
 namespace acstudy {
@@ -37,6 +39,13 @@ class ModelI {
 
   /// du_j = rate_j(u), j = 0 .. N-1.  @pre place() was called; wraps the ghosts of `u`.
   void rate(PeriodicArray& u, std::span<double> du);
+
+  /// The matrix of the rates.  @pre place() was called
+  void matrix(RateMatrix& R) const;
+
+  /// max_j |c_hat_j| sum_k W_k: a forward Euler step of at most its inverse keeps every transported value's own weight
+  /// nonnegative, which is what the proof of Lemma 2.4 needs of each row.
+  double strongest_decay() const;
 
   /// W_1 .. W_L of particle j, nearest first.
   std::span<const double> weights(std::ptrdiff_t j) const {
@@ -160,6 +169,39 @@ double ModelI<K, Divergence>::upwind_sum(std::ptrdiff_t j, const PeriodicArray& 
     }
   }
   return s * sum;
+}
+
+template <Kernel K, class Divergence>
+void ModelI<K, Divergence>::matrix(RateMatrix& R) const {
+  const std::ptrdiff_t n = std::ssize(c_hat_);
+  R.clear();
+  for (std::ptrdiff_t j = 0; j < n; ++j) {
+    const std::ptrdiff_t s = looks_left(j) ? +1 : -1;
+    double own = 0.0;
+    if constexpr (local) own -= divergence_.b_prime[j];
+    for (std::ptrdiff_t k = 1; k <= offset_[j + 1] - offset_[j]; ++k) {
+      const double W = weights_[offset_[j] + k - 1];
+      if constexpr (nonlocal) {
+        own -= s * (divergence_.c[j] - divergence_.b[j - s * k]) * W;
+      } else {
+        own -= s * c_hat_[j] * W;
+      }
+      R.add(j - s * k, n, s * c_hat_[j - s * k] * W);
+    }
+    R.add(j, n, own);
+    R.end_row();
+  }
+}
+
+template <Kernel K, class Divergence>
+double ModelI<K, Divergence>::strongest_decay() const {
+  double strongest = 0.0;
+  for (std::ptrdiff_t j = 0; j < std::ssize(c_hat_); ++j) {
+    double sum = 0.0;
+    for (const double W : weights(j)) sum += W;
+    strongest = std::max(strongest, std::abs(c_hat_[j]) * sum);
+  }
+  return strongest;
 }
 
 template <Kernel K, class Divergence>

@@ -12,6 +12,7 @@
 
 #include "solver/kernels.hpp"
 #include "solver/particles.hpp"
+#include "solver/rate_matrix.hpp"
 #include "solver/velocity.hpp"
 
 namespace acstudy {
@@ -46,6 +47,12 @@ class ModelII {
 
   /// du_j = rate_j(u), j = 0 .. N-1.  @pre place() was called; wraps the ghosts of `u`.
   void rate(PeriodicArray& u, std::span<double> du);
+
+  /// The matrix of the rates.  @pre place() was called
+  void matrix(RateMatrix& R) const;
+
+  /// mu max_j (reach_j/N_j) sum_k W_{j,k}/(x_i - x_j), the inverse of the largest forward Euler step above.
+  double strongest_decay() const;
 
   /// W_{j,k} for k = -l_j .. -1, 1 .. r_j.
   std::span<const double> weights(std::ptrdiff_t j) const {
@@ -192,6 +199,35 @@ void ModelII<K, Divergence>::set_weights(std::ptrdiff_t j, const Particles& part
   N_[j] = left.N + right.N;
   reach_[j] = std::max({particles.delta, x[0] - x[-l], x[r] - x[0]});
   if constexpr (nonlocal) divergence_.factor[j] = 2.0 / N_[j] * (left.B + right.B);
+}
+
+template <IntegrableKernel K, class Divergence>
+void ModelII<K, Divergence>::matrix(RateMatrix& R) const {
+  const std::ptrdiff_t n = std::ssize(N_);
+  R.clear();
+  for (std::ptrdiff_t j = 0; j < n; ++j) {
+    double own = 0.0;
+    if constexpr (!standing) own -= divergence_.factor[j];
+    for (std::ptrdiff_t q = offset_[j]; q < offset_[j + 1]; ++q) {
+      const std::ptrdiff_t left = q - offset_[j] - left_[j], k = left < 0 ? left : left + 1;
+      const double transport = -midpoint_c_hat_[q] * weights_[q], viscous = mu_ * reach_[j] * slopes_[q];
+      R.add(j + k, n, (transport + viscous) / N_[j]);
+      own += (transport - viscous) / N_[j];
+    }
+    R.add(j, n, own);
+    R.end_row();
+  }
+}
+
+template <IntegrableKernel K, class Divergence>
+double ModelII<K, Divergence>::strongest_decay() const {
+  double strongest = 0.0;
+  for (std::ptrdiff_t j = 0; j < std::ssize(N_); ++j) {
+    double sum = 0.0;
+    for (std::ptrdiff_t q = offset_[j]; q < offset_[j + 1]; ++q) sum += slopes_[q];
+    strongest = std::max(strongest, mu_ * reach_[j] / N_[j] * sum);
+  }
+  return strongest;
 }
 
 template <IntegrableKernel K, class Divergence>

@@ -3,6 +3,8 @@
 /// @file
 /// Time loop of one scheme: source, motion and semidiscretization put together.
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -10,10 +12,13 @@
 #include <stdexcept>
 
 #include "mms/source.hpp"
+#include "solver/implicit.hpp"
 #include "solver/integrators.hpp"
 #include "solver/particles.hpp"
+#include "studies/operator.hpp"
 #include "studies/run_case.hpp"
 #include "studies/scheme.hpp"
+#include "studies/watch.hpp"
 
 namespace acstudy {
 
@@ -44,87 +49,183 @@ class MovingParticles {
   double placed_at_ = 0.0;
 };
 
+/// A scheme with its source on particles in motion: the system that integrators step, du/dt = R u + f.
+template <class Motion>
+class SchemeInMotion {
+ public:
+  /// All arguments outlive the system.  @param result  gets the times and counts of what the scheme does not count
+  SchemeInMotion(const Case& c, Scheme& scheme, Source& source, Motion& motion, CaseResult& result)
+      : scheme_(scheme),
+        source_(source),
+        motion_(motion),
+        result_(result),
+        particles_(static_cast<std::size_t>(c.N), c.scene->period(), c.delta),
+        f_(particles_.size()),
+        bound_by_rows_(c.step.bound == StepRule::Bound::rows),
+        watched_(!c.integrator->implicit()),
+        lemma_bound_(c.lemma_bound(1.0)) {
+    place(0.0);
+  }
+
+  void rate(double t, PeriodicArray& u, std::span<double> du) {
+    see(t);
+    scheme_.rate(u, du);
+    for (std::size_t j = 0; j < du.size(); ++j) du[j] += f_[j];
+  }
+
+  /// u <- U with U - scale (R U + f) = u, at time t.
+  void solve(double t, double scale, PeriodicArray& u) {
+    see(t);
+    if (factorized_for_ != scale) {
+      scheme_.matrix(matrix_);
+      solver_.factorize(matrix_, scale);
+      factorized_for_ = scale;
+    }
+    for (std::size_t j = 0; j < f_.size(); ++j) u.values()[j] += scale * f_[j];
+    solver_.solve(u.values());
+  }
+
+  /// The largest step that the bound of the study's step rule allows from t on.
+  double bound(double t) {
+    move(t);
+    return bound_by_rows_ ? 1.0 / scheme_.strongest_decay() : lemma_bound_ * smallest_gap().width;
+  }
+
+  BoundWatch& watch() { return watch_; }
+
+ private:
+  struct Gap {
+    double width, place;
+  };
+  Gap smallest_gap() const {
+    const PeriodicArray& x = particles_.x;
+    std::ptrdiff_t closest = 0;
+    for (std::ptrdiff_t j = 1; j < std::ssize(x); ++j) {
+      if (x[j + 1] - x[j] < x[closest + 1] - x[closest]) closest = j;
+    }
+    return {x[closest + 1] - x[closest], x[closest]};
+  }
+
+  void place(double t) {
+    particles_.place(motion_.at(t));
+    scheme_.place(particles_);
+    timed([&] { source_.place(particles_.x.values()); });
+    factorized_for_ = 0.0;
+    if (watched_) gap_ = smallest_gap();
+  }
+
+  void move(double t) {
+    if (!motion_.moved_since(t)) return;
+    place(t);
+    result_.flow_evaluations += std::ssize(particles_.x);
+  }
+
+  /// Particles, source and bound as a stage at time t sees them.
+  void see(double t) {
+    move(t);
+    timed([&] { source_.evaluate(t, f_); });
+    if (watched_) watch_.stage(lemma_bound_ * gap_.width, gap_.place);
+  }
+
+  template <class Work>
+  void timed(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    result_.source_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  Scheme& scheme_;
+  Source& source_;
+  Motion& motion_;
+  CaseResult& result_;
+  Particles particles_;
+  std::vector<double> f_;
+  bool bound_by_rows_;
+  bool watched_;        ///< implicit steps are bounded by no lemma
+  double lemma_bound_;  ///< for a smallest gap of 1
+  Gap gap_ = {};
+  BoundWatch watch_;
+  RateMatrix matrix_;
+  ImplicitSolver solver_;
+  double factorized_for_ = 0.0;  ///< the scale; 0: for none
+};
+
+/// Errors of u against the exact solution at x and t; NaN if one is.
+struct Errors {
+  double linf = 0.0, l1 = 0.0, l2 = 0.0;  ///< the latter two weighted by cell width and divided by the period
+};
+Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
+                 std::span<const double> u_exact);
+
 /// Integrates from the exact initial values to T and measures the error; one repeat.
 template <class Motion>
 CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::atomic<bool>& stop) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds_since = [](Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
   const Scene& scene = *c.scene;
   const auto count = static_cast<std::size_t>(c.N);
   CaseResult result;
-
-  Particles particles(count, scene.period(), c.delta);
-  Motion motion(scene, uniform_positions(count, scene.period()));
+  Motion motion(scene, start_positions(c.start, count, scene.period()));
   PeriodicArray u(count);
   scene.u(motion.at(0.0), 0.0, u.values());
-  std::vector<double> f(count);
+  GrowthWatch growth(u.values());
+  double t = 0.0;
 
-  const auto place = [&](double t) {
-    particles.place(motion.at(t));
-    scheme.place(particles);
-    const auto start = Clock::now();
-    source.place(particles.x.values());
-    result.source_seconds += seconds_since(start);
-  };
-  const auto rate = [&](double t, PeriodicArray& values, std::span<double> du) {
-    if (motion.moved_since(t)) {
-      place(t);
-      result.flow_evaluations += c.N;
-    }
-    const auto start = Clock::now();
-    source.evaluate(t, f);
-    result.source_seconds += seconds_since(start);
-    scheme.rate(values, du);
-    for (std::size_t j = 0; j < count; ++j) du[j] += f[j];
-  };
-  const auto keep_going = [&](std::int64_t n, TimeStep) {
-    constexpr std::int64_t between_checks = 64;
-    if (n % between_checks == 0) {
-      double sum = 0.0;
-      for (const double value : u.values()) sum += std::abs(value);
-      if (!std::isfinite(sum)) return false;
-    }
-    return !stop.load(std::memory_order_relaxed);
+  const auto keep_going = [&](BoundWatch& watch, std::int64_t n, TimeStep step) {
+    watch.step(n, step);
+    result.dt = std::max(result.dt, step.dt);
+    result.dt_smallest = n == 1 ? step.dt : std::min(result.dt_smallest, step.dt);
+    result.steps = n;
+    t = step.end;
+    const auto exact_size = [&] {
+      std::vector<double> exact(count);
+      scene.u(motion.at(t), t, exact);
+      return max_norm(exact);
+    };
+    return growth.makes_sense(n, t, u.values(), exact_size) && !stop.load(std::memory_order_relaxed);
   };
 
-  const auto start = Clock::now();
-  std::int64_t done = 0;
+  const auto start = std::chrono::steady_clock::now();
   try {
-    place(0.0);
-    done = integrate(*c.integrator, u, EqualSteps(scene.T(), c.steps), ExplicitSystem{rate}, keep_going);
+    SchemeInMotion<Motion> system(c, scheme, source, motion, result);
+    const auto run = [&](auto steps) {
+      integrate(*c.integrator, u, std::move(steps), system,
+                [&](std::int64_t n, TimeStep step) { return keep_going(system.watch(), n, step); });
+    };
+    if (c.step.bound == StepRule::Bound::none) {
+      run(EqualSteps(scene.T(), c.steps));
+    } else {
+      run(BoundedSteps(scene.T(), [&](double now) { return c.step.safety * system.bound(now); }));
+    }
+    result.against_bound = system.watch().result();
   } catch (const std::domain_error& error) {
-    result.failure = error.what();
+    growth.restore(u.values());
+    result.failure = fmt::format("{} in step {}, from t = {:.6g} on", error.what(), result.steps + 1, t);
   }
-  result.seconds = seconds_since(start);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (stop.load(std::memory_order_relaxed)) return result;
-  if (done < c.steps && result.failure.empty()) {
-    result.blow_up = "the solution is no longer finite after step " + std::to_string(done);
-  }
 
-  const auto x = motion.at(scene.T());
+  result.blow_up = growth.blow_up();
+  const bool to_the_end = result.failure.empty() && result.blow_up.empty();
+  result.last = growth.last();
+  const double end = to_the_end ? scene.T() : result.blow_up.empty() ? t : result.last.time;
+  const auto x = motion.at(end);
   result.x.assign(x.begin(), x.end());
   result.u.assign(u.values().begin(), u.values().end());
   result.u_exact.resize(count);
-  scene.u(x, scene.T(), result.u_exact);
-  double l1 = 0.0, l2 = 0.0;
-  for (std::size_t j = 0; j < count; ++j) {
-    const double right = j + 1 < count ? x[j + 1] : x[0] + scene.period();
-    const double left = j > 0 ? x[j - 1] : x[count - 1] - scene.period();
-    const double error = std::abs(result.u[j] - result.u_exact[j]), width = 0.5 * (right - left);
-    // Once NaN, it stays: no comparison with a NaN is true.
-    if (std::isnan(error) || error > result.error_linf) result.error_linf = error;
-    l1 += width * error;
-    l2 = std::hypot(l2, std::sqrt(width) * error);  // a square of an error may overflow
-  }
-  result.error_l1 = l1 / scene.period();
-  result.error_l2 = l2 / std::sqrt(scene.period());
-  if (!std::isfinite(result.error_linf) && result.failure.empty() && result.blow_up.empty()) {
-    result.blow_up = "the solution is not finite at T";
-  }
-  if (!result.failure.empty() || !result.blow_up.empty()) {
+  scene.u(x, end, result.u_exact);
+  const Errors errors = errors_of(scene, result.x, result.u, result.u_exact);
+  if (to_the_end) {
+    result.error_linf = errors.linf;
+    result.error_l1 = errors.l1;
+    result.error_l2 = errors.l2;
+    if (!std::isfinite(errors.linf)) result.blow_up = "the error is not finite at T";
+  } else {
     result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
+    result.last.error_linf = errors.linf;
+    result.last.error_l1 = errors.l1;
+    result.last.error_l2 = errors.l2;
+    result.last.step = result.blow_up.empty() ? result.steps : result.last.step;
+    result.last.time = end;
+    if (result.last.particle >= 0) result.last.place = result.x[static_cast<std::size_t>(result.last.particle)];
   }
   result.work = scheme.work();
   result.quadrature_points = source.quadrature_points();

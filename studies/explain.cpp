@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace acstudy {
 
@@ -38,7 +39,8 @@ std::string left_out(const Study& study) {
   if (any([](const Series& s) { return s.cases.back().delta < s.cases.back().h; })) {
     line("neighbors beyond the nearest where the horizon is below the spacing: 1 in Model I, 2 in Model II");
   }
-  if (study.integrator->stage_count() == 1) line("stage storage: the integrator has one stage");
+  const auto one_stage = [](const Series& s) { return s.cases.front().integrator->stage_count() == 1; };
+  if (any(one_stage)) line("stage storage where the integrator has one stage");
   return out.empty() ? "  - nothing\n" : out;
 }
 
@@ -67,11 +69,22 @@ std::string explain(const Study& study) {
   if (!study.scene->standing()) {
     out += fmt::format("  flow = {}\n", scene.flow ? *scene.flow : "integrated from x' = b(x) to round-off");
   }
-  out += fmt::format("time: {}, step {} at most\n", study.integrator->name, study.step_text);
+  std::set<std::string> said;
+  for (const Series& series : study.series) {
+    const Case& c = series.cases.front();
+    const std::string stepping = fmt::format("time: {}, step {} at most\n", c.integrator->name, c.step.label());
+    if (said.insert(stepping).second) out += stepping;
+  }
 
   std::size_t count = 0;
   for (const Series& series : study.series) {
     out += fmt::format("\n{}, source {}\n", series.label(), series.nonlocal_source ? "nonlocal" : "local");
+    const Case& first = series.cases.front();
+    if (first.start != Start{}) out += fmt::format("  start: {}\n", first.start.label());
+    if (first.step.bound != StepRule::Bound::none) {
+      out += fmt::format("  dt and steps: by the lemma at the start; while running, by the {} of the moment\n",
+                         first.step.bound == StepRule::Bound::lemma ? "smallest gap" : "rows of the scheme");
+    }
     if (series.nonlocal_source) out += fmt::format("  source by {}\n", text(study.source_rule));
     if (series.theory.order > 0.0) {
       out += fmt::format("  theory: order {:g} in {} ({})\n", series.theory.order, series.theory.variable,
@@ -85,9 +98,10 @@ std::string explain(const Study& study) {
                        "neighbors", "CFL");
     for (const Case& c : series.cases) {
       const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
-      out += fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}\n", c.N, c.h, c.delta, c.dt,
-                         c.steps, (series.scheme.model == 1 ? 1 : 2) * static_cast<std::int64_t>(per_side), c.cfl(),
-                         c.cfl() > 1.0 ? "  beyond the bound 1 of the stability lemma" : "");
+      out +=
+          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}\n", c.N, c.h, c.delta, c.dt,
+                      c.steps, (series.scheme.model == 1 ? 1 : 2) * static_cast<std::int64_t>(per_side), c.cfl(),
+                      c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "");
       ++count;
     }
     if (series.scheme.model == 2 && series.scheme.kernel.name != "cubic-spline") {

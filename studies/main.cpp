@@ -116,6 +116,28 @@ std::vector<Row> departing_findings(const StudyResult& study) {
   return rows;
 }
 
+/// Says which series took steps beyond the bound of their lemma, and where that began in its worst case. Steps that
+/// follow the rows' bound mean to.
+void note_steps_beyond_bounds(const std::vector<StudyResult>& studies) {
+  for (const StudyResult& study : studies) {
+    if (!study.study->judged_by_series()) continue;
+    for (const SeriesResult& result : study.series) {
+      const std::vector<Case>& cases = result.series->cases;
+      std::size_t worst = 0;
+      for (std::size_t i = 1; i < cases.size(); ++i) {
+        if (result.results[i].against_bound.largest > result.results[worst].against_bound.largest) worst = i;
+      }
+      const StepsAgainstBound& bound = result.results[worst].against_bound;
+      if (bound.first_step == 0 || cases[worst].step.bound == StepRule::Bound::rows) continue;
+      say(
+          fmt::format("note: {}: {}, N = {}: from step {} on (t = {:.4g}, smallest gap at x = {:.6g}) steps are beyond "
+                      "the bound of Lemma {}, by a factor of up to {:.3g}",
+                      study.study->name, result.series->label(), cases[worst].N, bound.first_step, bound.first_time,
+                      bound.first_place, result.series->scheme.model == 1 ? "2.4" : "3.3", bound.largest));
+    }
+  }
+}
+
 int run(const std::vector<std::string>& files, RunOptions options) {
   const std::vector<Study> studies = read_studies(files);
   prepare_folder(options.out);
@@ -161,6 +183,7 @@ int run(const std::vector<std::string>& files, RunOptions options) {
   }
   fmt::print("{}{} cases computed, {} taken from the store; results in {}\n", table_text(rows), result.computed,
              result.reused, options.out.string());
+  note_steps_beyond_bounds(result.studies);
   if (result.interrupted) {
     say("interrupted; finished cases are stored, and the same command goes on from them");
     return interrupted;

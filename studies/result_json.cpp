@@ -31,7 +31,7 @@ json observed_json(const Judgement& judgement) {
   return out;
 }
 
-json series_json(const Study& study, const SeriesResult& result) {
+json series_json(const SeriesResult& result) {
   const Series& series = *result.series;
   const Judgement& judgement = result.judgement;
   json out;
@@ -43,9 +43,11 @@ json series_json(const Study& study, const SeriesResult& result) {
   out["path"] = series.path;
   out["delta"] = series.delta_text;
   out["source"] = series.nonlocal_source ? "nonlocal" : "local";
-  out["integrator"] = study.integrator->name;
-  out["step"] = study.step_text;
-  out["motion"] = study.scene->standing() ? "standing" : "moving";
+  out["integrator"] = series.cases.front().integrator->name;
+  out["step"] = series.cases.front().step.label();
+  out["start"] = series.cases.front().start.label();
+  if (!series.stepping.empty()) out["stepping"] = series.stepping;
+  out["motion"] = series.cases.front().scene->standing() ? "standing" : "moving";
   out["theory"] = {
       {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
   out["observed"] = observed_json(judgement);
@@ -61,8 +63,8 @@ json series_json(const Study& study, const SeriesResult& result) {
     json one = {{"N", c.N},
                 {"h", c.h},
                 {"delta", c.delta},
-                {"dt", c.dt},
-                {"steps", c.steps},
+                {"dt", r.dt},
+                {"steps", r.steps},
                 {"error_linf", number(r.error_linf)},
                 {"error_l1", number(r.error_l1)},
                 {"error_l2", number(r.error_l2)},
@@ -77,6 +79,24 @@ json series_json(const Study& study, const SeriesResult& result) {
                   {"quadrature_points", r.quadrature_points},
                   {"velocity_evaluations", r.work.velocity_evaluations},
                   {"flow_evaluations", r.flow_evaluations}}}};
+    if (r.dt_smallest != r.dt) one["dt_smallest"] = r.dt_smallest;
+    if (const StepsAgainstBound& bound = r.against_bound; bound.largest > 0.0) {
+      one["bound"] = {{"largest", bound.largest}};
+      if (bound.first_step > 0) {
+        one["bound"]["first_step"] = bound.first_step;
+        one["bound"]["first_time"] = bound.first_time;
+        one["bound"]["first_place"] = bound.first_place;
+      }
+    }
+    if (!r.blow_up.empty() || !r.failure.empty()) {
+      one["last"] = {{"step", r.last.step},
+                     {"time", number(r.last.time)},
+                     {"particle", r.last.particle},
+                     {"place", number(r.last.place)},
+                     {"error_linf", number(r.last.error_linf)},
+                     {"error_l1", number(r.last.error_l1)},
+                     {"error_l2", number(r.last.error_l2)}};
+    }
     if (!r.blow_up.empty()) one["blow_up"] = r.blow_up;
     if (!r.failure.empty()) one["failure"] = r.failure;
     out["cases"].push_back(one);
@@ -211,6 +231,7 @@ SeriesRecord read_series(const std::string& study, const json& series) {
                             .nonlocal_divergence = series.at("divergence").get<std::string>() == "nonlocal",
                             .kernel = kernel};
   record.label = scheme_label(scheme, standing) + ", " + series.at("path").get<std::string>();
+  if (series.contains("stepping")) record.label += ", " + series.at("stepping").get<std::string>();
   const json& theory = series.at("theory");
   const bool by_h = theory.at("variable").get<std::string>() == "h";
   for (const json& one : series.at("cases")) {
@@ -235,7 +256,7 @@ std::string json_text(const StudyResult& result, const Provenance& provenance) {
   // The series of other kinds are runs that their findings rest on; they have no verdict of their own.
   if (study.judged_by_series()) {
     root["series"] = json::array();
-    for (const SeriesResult& series : result.series) root["series"].push_back(series_json(study, series));
+    for (const SeriesResult& series : result.series) root["series"].push_back(series_json(series));
   } else {
     root["findings_planned"] = study.measurements.size();
     root["findings"] = json::array();

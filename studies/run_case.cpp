@@ -32,6 +32,24 @@ CaseResult failed(const std::string& reason) {
 
 }  // namespace
 
+Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
+                 std::span<const double> u_exact) {
+  const std::size_t count = x.size();
+  Errors errors;
+  for (std::size_t j = 0; j < count; ++j) {
+    const double right = j + 1 < count ? x[j + 1] : x[0] + scene.period();
+    const double left = j > 0 ? x[j - 1] : x[count - 1] - scene.period();
+    const double error = std::abs(u[j] - u_exact[j]), width = 0.5 * (right - left);
+    // Once NaN, it stays: no comparison with a NaN is true.
+    if (std::isnan(error) || error > errors.linf) errors.linf = error;
+    errors.l1 += width * error;
+    errors.l2 = std::hypot(errors.l2, std::sqrt(width) * error);  // the square of an error may overflow
+  }
+  errors.l1 /= scene.period();
+  errors.l2 /= std::sqrt(scene.period());
+  return errors;
+}
+
 CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats, bool timed) {
   const std::size_t most_repeats = timed ? 5 : 1;
   constexpr double enough_seconds = 0.1;

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,27 @@
 
 namespace acstudy {
 
+/// The last state of a run that was given up, and what had become of its errors.
+struct LastState {
+  std::int64_t step = 0;  ///< steps done; 0 where the run went to its end
+  double time = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t particle = -1;                               ///< the one that gave the run away
+  double place = std::numeric_limits<double>::quiet_NaN();  ///< its position
+  double error_linf = std::numeric_limits<double>::quiet_NaN();
+  double error_l1 = std::numeric_limits<double>::quiet_NaN(), error_l2 = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Explicit steps against the bound of Lemma 2.4 or 3.3 at the smallest gap of the moment.
+struct StepsAgainstBound {
+  double largest = 0.0;         ///< largest dt over the bound; 0 where nothing is bounded
+  std::int64_t first_step = 0;  ///< first step beyond the bound; 0: none
+  double first_time = std::numeric_limits<double>::quiet_NaN();
+  double first_place = std::numeric_limits<double>::quiet_NaN();  ///< left end of the smallest gap then
+};
+
 struct CaseResult {
   bool completed = false;  ///< false: interrupted, nothing else is meaningful
-  std::string blow_up;     ///< when the solution ceased to be finite, if it did; the errors are then NaN
+  std::string blow_up;     ///< how the solution left all bounds, if it did; the errors are then NaN
   std::string failure;     ///< why there is no solution for another reason, if so; the errors are then NaN
   double error_linf = 0.0;
   double error_l1 = 0.0, error_l2 = 0.0;  ///< weighted by cell width, divided by the period
@@ -29,7 +48,12 @@ struct CaseResult {
   std::int64_t quadrature_points = 0;
   std::int64_t flow_evaluations = 0;  ///< particle positions computed after the start
 
-  std::vector<double> x, u, u_exact;  ///< fields at T, shape [N]
+  std::int64_t steps = 0;              ///< done
+  double dt = 0.0, dt_smallest = 0.0;  ///< largest and smallest step
+  StepsAgainstBound against_bound;
+  LastState last;
+
+  std::vector<double> x, u, u_exact;  ///< fields at T, or the last finite ones of a run that was given up, shape [N]
 };
 
 /// Runs a case, several times if it is short, so that its run time means something.

@@ -11,6 +11,7 @@
 #include "mms/quadrature.hpp"
 #include "mms/scene.hpp"
 #include "solver/particles.hpp"
+#include "solver/rate_matrix.hpp"
 #include "solver/velocity.hpp"
 #include "studies/study.hpp"
 
@@ -32,6 +33,10 @@ class Scheme {
   /// du_j = rate_j(u).  @pre place() was called; wraps the ghosts of `u`
   virtual void rate(PeriodicArray& u, std::span<double> du) = 0;
   virtual Stencil stencil(std::ptrdiff_t j) const = 0;
+  /// The matrix of the rates.  @throws std::logic_error from a control, which is never solved for
+  virtual void matrix(RateMatrix& R) const = 0;
+  /// One over the largest forward Euler step with which every row meets what the proofs of Lemmas 2.4 and 3.3 need.
+  virtual double strongest_decay() const = 0;
   virtual WorkCounts work() const = 0;
 };
 

@@ -4,6 +4,7 @@
 /// A model of the solver, with the velocities that it is to see, as a Scheme.
 
 #include <memory>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -38,6 +39,20 @@ class SchemeOn final : public Scheme {
   }
   void rate(PeriodicArray& u, std::span<double> du) override { model_.rate(u, du); }
   Stencil stencil(std::ptrdiff_t j) const override { return stencil_of(model_, j, *windows_); }
+  void matrix(RateMatrix& R) const override {
+    if constexpr (requires { model_.matrix(R); }) {
+      model_.matrix(R);
+    } else {
+      throw std::logic_error("a control has no matrix");
+    }
+  }
+  double strongest_decay() const override {
+    if constexpr (requires { model_.strongest_decay(); }) {
+      return model_.strongest_decay();
+    } else {
+      throw std::logic_error("a control has no bound on its steps");
+    }
+  }
   WorkCounts work() const override { return model_.work(); }
 
  private:

@@ -35,6 +35,20 @@ void for_each_column(Result& result, Visit&& visit) {
   visit("work_quadrature_points", result.quadrature_points);
   visit("work_velocity_evaluations", result.work.velocity_evaluations);
   visit("work_flow_evaluations", result.flow_evaluations);
+  visit("steps", result.steps);
+  visit("dt", result.dt);
+  visit("dt_smallest", result.dt_smallest);
+  visit("bound_largest", result.against_bound.largest);
+  visit("bound_first_step", result.against_bound.first_step);
+  visit("bound_first_time", result.against_bound.first_time);
+  visit("bound_first_place", result.against_bound.first_place);
+  visit("last_step", result.last.step);
+  visit("last_time", result.last.time);
+  visit("last_particle", result.last.particle);
+  visit("last_place", result.last.place);
+  visit("last_error_linf", result.last.error_linf);
+  visit("last_error_l1", result.last.error_l1);
+  visit("last_error_l2", result.last.error_l2);
 }
 
 /// Columns of a series by name, real numbers and counts.
@@ -46,7 +60,7 @@ struct Columns {
   std::vector<std::int64_t>& of(const std::string& name, std::int64_t) { return count[name]; }
 };
 
-void write_series(hid_t parent, const std::string& group_name, const Study& study, const SeriesResult& result) {
+void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
   h5::write_number<std::int64_t>(group, "model", series.scheme.model);
@@ -58,7 +72,9 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   h5::write_text(group, "delta_text", series.delta_text);
   h5::write_text(group, "source", series.nonlocal_source ? "nonlocal" : "local");
   h5::write_text(group, "integrator", std::string(series.cases.front().integrator->name));
-  h5::write_text(group, "step_text", study.step_text);
+  h5::write_text(group, "step_text", series.cases.front().step.label());
+  h5::write_text(group, "start", series.cases.front().start.label());
+  h5::write_text(group, "stepping", series.stepping);
   h5::write_text(group, "motion", series.cases.front().scene->standing() ? "standing" : "moving");
   h5::write_text(group, "theory_variable", series.theory.variable);
   h5::write_number(group, "theory_order", series.theory.order);
@@ -78,10 +94,8 @@ void write_series(hid_t parent, const std::string& group_name, const Study& stud
   Columns columns;
   const auto visit = [&series](const Case& c, const CaseResult& r, auto&& column) {
     column("N", c.N);
-    column("steps", c.steps);
     column("h", c.h);
     column("delta", c.delta);
-    column("dt", c.dt);
     column("variable", series.variable(c.h, c.delta));
     for_each_column(r, column);
   };
@@ -240,7 +254,7 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
   }
   const h5::Handle series = h5::create_group(root, "series");
   for (std::size_t i = 0; i < result.series.size(); ++i) {
-    write_series(series, fmt::format("{:03}", i), study, result.series[i]);
+    write_series(series, fmt::format("{:03}", i), result.series[i]);
   }
   const h5::Handle findings = h5::create_group(root, "findings");
   h5::write_text(root, "findings_key", findings_key(study));
@@ -350,6 +364,8 @@ StoredCases load_cases(const fs::path& file) {
       Columns columns;
       for (std::size_t i = 0; i < results.size(); ++i) {
         for_each_column(results[i], [&]<class T>(const char* column, T& value) {
+          // Files of older versions lack some. Their cases have other keys, so nothing is missed.
+          if (H5Lexists(group, column, H5P_DEFAULT) <= 0) return;
           std::vector<T>& values = columns.of(column, T{});
           if (values.empty()) values = h5::read_column<T>(group, column);
           value = values.at(i);

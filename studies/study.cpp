@@ -14,13 +14,16 @@ std::string Case::key() const {
   return fmt::format(
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
-      "integrator={}|N={}|delta={:.17g}|steps={}{}{}",
+      "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}",
       text.period, text.T, text.c, text.b.value_or(""), text.u, text.flow.value_or(""), scheme.model,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",
       scheme.kernel.name, scheme.kernel.alpha, mu, nonlocal_source ? "nonlocal" : "local",
-      static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta, steps,
+      static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta,
+      step.bound == StepRule::Bound::none ? std::to_string(steps)
+                                          : fmt::format("{}*{:.17g}", step.label(), step.safety),
+      start == Start{} ? "" : fmt::format("|start={},{:.17g}", start.label(), start.smallest_gap),
       scheme.control.empty() ? "" : "|control=" + scheme.control,
       source_refinement == 1 ? "" : fmt::format("|source_points=x{}", source_refinement));
 }
@@ -32,7 +35,19 @@ double Case::estimated_work() const {
          neighbors;
 }
 
-double Case::cfl() const { return scheme.model == 1 ? dt * scene->max_relative_velocity() / h : 2.0 * dt * mu / h; }
+double Case::lemma_bound(double h_min) const {
+  return h_min / (scheme.model == 1 ? scene->max_relative_velocity() : 2.0 * mu);
+}
+
+void Case::halve_steps() {
+  steps *= 2;
+  dt *= 0.5;
+  step.safety *= 0.5;
+}
+
+std::string StepRule::label() const {
+  return bound == Bound::none ? text : fmt::format("{:g} {}{}", safety, text, bound == Bound::rows ? " by rows" : "");
+}
 
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
   std::string text = scheme.model == 1 ? "Model I" : "Model II";
@@ -41,6 +56,9 @@ std::string scheme_label(const SchemeChoice& scheme, bool standing) {
   return scheme.control.empty() ? text : fmt::format("{} ({})", scheme.control, text);
 }
 
-std::string Series::label() const { return scheme_label(scheme, cases.front().scene->standing()) + ", " + path; }
+std::string Series::label() const {
+  return scheme_label(scheme, cases.front().scene->standing()) + ", " + path +
+         (stepping.empty() ? "" : ", " + stepping);
+}
 
 }  // namespace acstudy

@@ -15,6 +15,7 @@
 #include "mms/source.hpp"
 #include "reports/orders.hpp"
 #include "solver/integrators.hpp"
+#include "studies/arrangement.hpp"
 #include "studies/finding.hpp"
 #include "studies/kernel_choice.hpp"
 
@@ -28,6 +29,19 @@ struct SchemeChoice {
   std::string control;       ///< name of the mistake made on purpose; empty for the scheme itself
 };
 
+/// How long the steps of a run may be.
+struct StepRule {
+  /// Which bound steps follow: none, they are equal; that of Lemma 2.4 or 3.3 at the smallest gap of the moment; or
+  /// what the proofs of these need of the rows, `Scheme::strongest_decay`, at the particles of the moment.
+  enum class Bound { none, lemma, rows };
+  Bound bound = Bound::none;
+  double safety = 1.0;  ///< fraction of the bound that is taken
+  std::string text;     ///< as a study writes it: "h/4", "cfl"
+
+  /// "h/4", "0.9 cfl", "0.9 cfl by rows"
+  std::string label() const;
+};
+
 /// Everything that fixes the numbers of one run.
 struct Case {
   std::shared_ptr<const Scene> scene;
@@ -37,16 +51,23 @@ struct Case {
   SourceRule source_rule;
   const Integrator* integrator;
   std::int64_t N;
-  double h, delta, dt;
-  std::int64_t steps;
+  double h, delta;
+  double dt;           ///< of equal steps; with a bound, the first one by Lemma 2.4 or 3.3
+  std::int64_t steps;  ///< equal ones; with a bound, as many of the first one
+  Start start = {};
+  StepRule step = {};
   std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
 
   /// Text that is equal for two cases exactly if all their inputs are equal.
   std::string key() const;
   /// Rough number of pair interactions, to start the longest case first.
   double estimated_work() const;
-  /// CFL number: dt max|c_hat| / h (Lemma 2.4) or 2 dt mu / h (Lemma 3.3) at the uniform start.
-  double cfl() const;
+  /// The largest forward Euler step by Lemma 2.4, h_min / max|c_hat|, or Lemma 3.3, h_min / (2 mu).
+  double lemma_bound(double h_min) const;
+  /// CFL number at the start: dt over the bound of the lemma.
+  double cfl() const { return dt / lemma_bound(h * start.smallest_gap); }
+  /// Twice as many steps of half the length.
+  void halve_steps();
 };
 
 /// What theory says of a series.
@@ -60,6 +81,7 @@ struct Theory {
 struct Series {
   SchemeChoice scheme;
   std::string path, delta_text;
+  std::string stepping;  ///< integrator and steps as a label, where a study has several; else empty
   bool nonlocal_source;
   Theory theory;
   Verdict expected;
@@ -86,9 +108,7 @@ struct Measurement {
 struct Study {
   std::string file, text;
   std::string name, title, kind;
-  std::shared_ptr<const Scene> scene;      ///< none where a kind needs none
-  const Integrator* integrator = nullptr;  ///< the same
-  std::string step_text;
+  std::shared_ptr<const Scene> scene;  ///< none where a kind needs none
   SourceRule source_rule = SourceRule::gauss;
   std::vector<Series> series;
   std::vector<Measurement> measurements;

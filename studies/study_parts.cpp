@@ -210,11 +210,51 @@ Verdict read_expected(const Table& table, const toml::node& node) {
   for (int v = 0; v <= static_cast<int>(Verdict::inconclusive); ++v) {
     words.emplace_back(name_of(static_cast<Verdict>(v)), static_cast<Verdict>(v));
   }
+  words.emplace_back(name_of(Verdict::stable), Verdict::stable);
   return table.choice<Verdict>("expect", node, words);
 }
 
+namespace {
+
+/// start = "uniform", or { name = "jittered", smallest_gap = 0.01, seed = 1 }, { name = "clustered", ... }.
+Start read_start(const Table& path, const toml::node& node) {
+  static const toml::table no_table;
+  const toml::table* const table = node.as_table();
+  const Table inner(table != nullptr ? *table : no_table, "start", path.file());
+  const char* const example = "{ name = \"jittered\", smallest_gap = 0.01, seed = 1 }";
+  const toml::node& name = table != nullptr ? inner.need("name", example) : node;
+  Start start{.kind = path.choice<Start::Kind>("start", name,
+                                               {{"uniform", Start::Kind::uniform},
+                                                {"jittered", Start::Kind::jittered},
+                                                {"clustered", Start::Kind::clustered}})};
+  switch (start.kind) {
+    case Start::Kind::uniform:
+      if (table != nullptr) inner.allow({"name"});
+      return start;
+    case Start::Kind::jittered:
+      inner.allow({"name", "smallest_gap", "seed"});
+      break;
+    case Start::Kind::clustered:
+      inner.allow({"name", "smallest_gap"});
+      break;
+  }
+  if (table == nullptr) path.place(node).fail(fmt::format("this start needs its smallest gap; write {}", example));
+  const toml::node& gap = inner.need("smallest_gap", example);
+  start.smallest_gap = inner.number("smallest_gap", gap);
+  if (!(start.smallest_gap > 0.0 && start.smallest_gap < 1.0)) {
+    inner.place(gap).fail(
+        fmt::format("smallest_gap = {}; in units of h it lies between 0 and 1: write {}", start.smallest_gap, example));
+  }
+  if (const toml::node* const seed = inner.find("seed")) {
+    start.seed = static_cast<unsigned>(inner.whole("seed", *seed, 0, 1'000'000'000));
+  }
+  return start;
+}
+
+}  // namespace
+
 PathChoice read_path(const Table& table) {
-  table.allow({"name", "delta", "N", "source", "expect", "order"});
+  table.allow({"name", "delta", "N", "source", "expect", "order", "start"});
   const toml::node& name = table.need("name", "name = \"delta = 4h\"");
   PathChoice path{.name = table.text("name", name, "name = \"delta = 4h\""),
                   .delta = table.expression("delta", "delta = \"4*h\"", {"h", "N"}),
@@ -227,6 +267,7 @@ PathChoice read_path(const Table& table) {
   if (const toml::node* const expect = table.find("expect")) {
     path.expect = read_expected(table, *expect);
   }
+  if (const toml::node* const start = table.find("start")) path.start = read_start(table, *start);
   if (const toml::node* const order = table.find("order")) {
     path.order = table.number("order", *order);
     if (!std::isfinite(*path.order) || *path.order < 0.0) {
@@ -238,17 +279,40 @@ PathChoice read_path(const Table& table) {
 
 namespace {
 
-Stepping read_time(const Table& root) {
-  const Table time = root.sub_table("time");
-  time.allow({"integrator", "step"});
+Stepping read_time(const Table& time) {
+  time.allow({"integrator", "step", "safety", "bound", "expect"});
   std::vector<std::pair<std::string, const Integrator*>> words;
-  for (const Integrator& integrator : integrators) {
-    if (!integrator.implicit()) words.emplace_back(integrator.name, &integrator);
+  for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
+  Stepping stepping{
+      .integrator = time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), words),
+      .rule = {},
+      .step = std::nullopt,
+      .at_step = time.place(time.need("step", "step = \"h/4\""))};
+  if (const toml::node* const expect = time.find("expect")) stepping.expect = read_expected(time, *expect);
+  StepRule& rule = stepping.rule;
+  if (time.find("step")->value_exact<std::string>() == "cfl") {
+    rule = {.bound = StepRule::Bound::lemma, .safety = 0.9, .text = "cfl"};
+    if (const toml::node* const safety = time.find("safety")) {
+      rule.safety = time.number("safety", *safety);
+      if (!std::isfinite(rule.safety) || rule.safety <= 0.0) {
+        time.place(*safety).fail(fmt::format(
+            "safety = {}; the fraction of the bound must be positive and finite: write safety = 0.9", rule.safety));
+      }
+    }
+    if (const toml::node* const bound = time.find("bound")) {
+      rule.bound = time.choice<StepRule::Bound>("bound", *bound,
+                                                {{"lemma", StepRule::Bound::lemma}, {"rows", StepRule::Bound::rows}});
+    }
+    return stepping;
   }
-  const Integrator* const integrator =
-      time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), words);
-  Expression step = time.expression("step", "step = \"h/4\"", {"h", "N"});
-  return {integrator, std::move(step), time.place(*time.find("step"))};
+  for (const char* const key : {"safety", "bound"}) {
+    if (const toml::node* const node = time.find(key)) {
+      time.place(*node).fail(fmt::format("{} goes with step = \"cfl\"; leave it out", key));
+    }
+  }
+  stepping.step = time.expression("step", "step = \"h/4\"", {"h", "N"});
+  rule.text = stepping.step->text();
+  return stepping;
 }
 
 SourceRule read_source_rule(const Table& root) {
@@ -262,13 +326,35 @@ SourceRule read_source_rule(const Table& root) {
 
 }  // namespace
 
-Stepping read_problem(const Table& root, Study& study) {
+std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& study) {
   study.scene = read_scene(root.sub_table("scene"));
-  Stepping time = read_time(root);
-  study.integrator = time.integrator;
-  study.step_text = time.step.text();
   study.source_rule = read_source_rule(root);
-  return time;
+  const toml::node* const several = root.find("time");
+  if (several == nullptr || !several->is_array()) return {read_time(root.sub_table("time"))};
+
+  std::vector<Stepping> steppings;
+  std::set<std::string> labels;
+  for (const Table& table : root.array_of_tables("time")) {
+    Stepping& stepping = steppings.emplace_back(read_time(table));
+    stepping.label = fmt::format("{}, step {}", stepping.integrator->name, stepping.rule.label());
+    if (!labels.insert(stepping.label).second) {
+      table.place().fail("the same integrator and steps a second time; leave one of them out");
+    }
+  }
+  if (steppings.size() == 1) steppings.front().label.clear();
+  return steppings;
+}
+
+Stepping read_problem(const Table& root, Study& study) {
+  std::vector<Stepping> steppings = read_problem_with_steppings(root, study);
+  if (steppings.size() > 1) {
+    root.place(*root.find("time")).fail("a study of this kind steps in one way; leave one [[time]]");
+  }
+  if (steppings.front().expect) {
+    root.place(*root.find("time"))
+        .fail("a study of this kind expects nothing of a way to step; leave expect out of it");
+  }
+  return std::move(steppings.front());
 }
 
 void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at) {
@@ -288,10 +374,30 @@ void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place
 }
 
 Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
-               bool nonlocal_source, const Place& at) {
+               bool nonlocal_source, const Place& at, const Start& start) {
   const Scene& scene = *study.scene;
-  const double count = static_cast<double>(N), h = scene.period() / count, bound = time.step({h, count});
+  const double count = static_cast<double>(N), h = scene.period() / count;
   check_horizon(scene, N, delta, at);
+  Case c{.scene = study.scene,
+         .scheme = entry.scheme,
+         .mu = entry.mu,
+         .nonlocal_source = nonlocal_source,
+         .source_rule = study.source_rule,
+         .integrator = time.integrator,
+         .N = N,
+         .h = h,
+         .delta = delta,
+         .dt = 0.0,
+         .steps = 0,
+         .start = start,
+         .step = time.rule};
+  const double bound = time.step ? (*time.step)({h, count}) : time.rule.safety * c.lemma_bound(h * start.smallest_gap);
+  if (!time.step && std::isinf(bound)) {
+    time.at_step.fail(
+        fmt::format("step = \"cfl\" where {} is zero, so that no bound limits a step; write an expression "
+                    "in h and N such as \"h/4\"",
+                    entry.scheme.model == 1 ? "c - b" : "mu"));
+  }
   if (!std::isfinite(bound) || bound <= 0.0) {
     time.at_step.fail(fmt::format(
         "step = {:.6g} at h = {:.6g} (N = {}); a time step must be positive and finite: write an expression "
@@ -302,18 +408,9 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
     time.at_step.fail(fmt::format("step = {:.6g} at h = {:.6g} (N = {}) asks for {:.3g} steps; the most is 1e12", bound,
                                   h, N, scene.T() / bound));
   }
-  const std::int64_t steps = steps_for(scene.T(), bound);
-  return {.scene = study.scene,
-          .scheme = entry.scheme,
-          .mu = entry.mu,
-          .nonlocal_source = nonlocal_source,
-          .source_rule = study.source_rule,
-          .integrator = study.integrator,
-          .N = N,
-          .h = h,
-          .delta = delta,
-          .dt = steps == 0 ? 0.0 : scene.T() / static_cast<double>(steps),
-          .steps = steps};
+  c.steps = steps_for(scene.T(), bound);
+  c.dt = c.steps == 0 ? 0.0 : scene.T() / static_cast<double>(c.steps);
+  return c;
 }
 
 Series make_series(const Study& study, const Stepping& time, const SchemeEntry& entry, const PathChoice& path,
@@ -325,9 +422,10 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
                 .theory = {},
                 .expected = Verdict::confirmed,
                 .cases = {}};
+  series.stepping = time.label;
   for (const std::int64_t N : path.N) {
     const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
-    series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta));
+    series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta, path.start));
   }
   const Case& finest = series.cases.back();
   const bool fixed = finest.delta == series.cases.front().delta && series.cases.size() > 1;
@@ -337,7 +435,9 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
     series.theory.order = *path.order;
     series.theory.statement = "given by the study";
   }
-  series.expected = path.expect.value_or(series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
+  series.expected = time.expect
+                        ? *time.expect
+                        : path.expect.value_or(series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
   return series;
 }
 

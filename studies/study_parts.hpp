@@ -45,6 +45,7 @@ struct PathChoice {
   bool nonlocal_source;
   std::optional<Verdict> expect;
   std::optional<double> order;  ///< in place of theory's
+  Start start = {};
 };
 PathChoice read_path(const Table& table);
 
@@ -57,15 +58,20 @@ Verdict read_expected(const Table& table, const toml::node& node);
 /// [time]: how a study steps.
 struct Stepping {
   const Integrator* integrator;
-  Expression step;
+  StepRule rule;
+  std::optional<Expression> step;  ///< upper bound of equal steps; absent where they follow a bound of the scheme
   Place at_step;
+  std::optional<Verdict> expect = {};  ///< in place of what paths expect
+  std::string label = {};              ///< for the labels of series, where a study has several ways to step
 };
 /// [scene], [time] and [source] of a study that runs cases; what is read is set in `study`.
 Stepping read_problem(const Table& root, Study& study);
+/// The same where [[time]] may stand several times.
+std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& study);
 
 /// The case of one scheme at N particles and the horizon `delta`.  @param at  the place to blame for a bad horizon
 Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
-               bool nonlocal_source, const Place& at);
+               bool nonlocal_source, const Place& at, const Start& start = {});
 
 /// The series of one scheme along a path, with what theory says of it; a study may expect or promise something else.
 Series make_series(const Study& study, const Stepping& time, const SchemeEntry& entry, const PathChoice& path,

@@ -20,7 +20,8 @@ PATH_TABLE = STUDY[STUDY.index("[[path]]"):]
 
 NAMES = "it may use h, N, pi, e and the usual functions"
 VERDICTS = ('"confirmed", "pre-asymptotic", "below", "above", "stagnates", "floor", "diverges", "unstable", '
-            '"inconclusive"')
+            '"inconclusive", "stable"')
+JITTERED = '{ name = "jittered", smallest_gap = 0.01, seed = 1 }'
 POSITIVE_DELTA = ('a horizon must be positive and finite: write an expression in h and N such as "4*h"')
 POSITIVE_STEP = ('a time step must be positive and finite: write an expression in h and N such as "h/4"')
 COARSE = "at h = 0.392699 (N = 16)"
@@ -63,9 +64,11 @@ STUDIES = {
                                   'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, mu'),
     "unknown key of a kernel": (kernel('{ name = "power", alpha = 0.5, @beta = 1 }'),
                                 'unknown key "beta" in kernel; known keys: name, alpha'),
-    "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step'),
+    "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step, '
+                              'safety, bound, expect'),
     "unknown key in [[path]]": (bad((SOURCE, '@target = "local"')),
-                                'unknown key "target" in [[path]]; known keys: name, delta, N, source, expect, order'),
+                                'unknown key "target" in [[path]]; known keys: name, delta, N, source, expect, order, '
+                                'start'),
     "unknown key in [source]": (STUDY + '[source]\n@method = "gauss"\n',
                                 'unknown key "method" in [source]; known keys: rule'),
     "no [study]": ("@" + STUDY[STUDY.index("[scene]"):], "the study has no [study]; add it"),
@@ -130,7 +133,35 @@ STUDIES = {
     "divergence is true": (bad(('divergence = "local"', "divergence = @true")),
                            'divergence = true; it must be one of "local", "nonlocal"'),
     "unknown integrator": (bad(('"forward-euler"', '@"rk4"')),
-                           'integrator = "rk4"; it must be one of "forward-euler", "ssprk2", "ssprk3"'),
+                           'integrator = "rk4"; it must be one of "forward-euler", "ssprk2", "ssprk3", '
+                           '"backward-euler", "sdirk2"'),
+    "safety without a bound": (bad(('"h/4"', '"h/4"\nsafety = @0.9')),
+                               'safety goes with step = "cfl"; leave it out'),
+    "bound without a bound": (bad(('"h/4"', '"h/4"\nbound = @"rows"')), 'bound goes with step = "cfl"; leave it out'),
+    "safety of zero": (bad(('"h/4"', '"cfl"\nsafety = @0')),
+                       'safety = 0; the fraction of the bound must be positive and finite: write safety = 0.9'),
+    "no bound to follow": (bad((USE, USE.replace("lee-du-2019", "lagrangian")), ('"h/4"', '@"cfl"')),
+                           'step = "cfl" where c - b is zero, so that no bound limits a step; write an expression in h '
+                           'and N such as "h/4"'),
+    "unknown bound": (bad(('"h/4"', '"cfl"\nbound = @"mine"')),
+                      'bound = "mine"; it must be one of "lemma", "rows"'),
+    "the same steps a second time": (bad(("[time]", "[[time]]")) + '\n@[[time]]\nintegrator = "forward-euler"\n'
+                                     'step = "h/4"\n',
+                                     "the same integrator and steps a second time; leave one of them out"),
+    "unknown start": (bad((SOURCE, SOURCE + '\nstart = @"random"')),
+                      'start = "random"; it must be one of "uniform", "jittered", "clustered"'),
+    "start without its gap": (bad((SOURCE, SOURCE + '\nstart = @"jittered"')),
+                              f"this start needs its smallest gap; write {JITTERED}"),
+    "start without its gap in a table": (bad((SOURCE, SOURCE + '\nstart = @{ name = "clustered" }')),
+                                         f'start has no "smallest_gap"; write, for example, {JITTERED}'),
+    "start with coincident particles": (
+        bad((SOURCE, SOURCE + '\nstart = { name = "jittered", smallest_gap = @0 }')),
+        f"smallest_gap = 0; in units of h it lies between 0 and 1: write {JITTERED}"),
+    "seed of a start without chance": (
+        bad((SOURCE, SOURCE + '\nstart = { name = "clustered", smallest_gap = 0.1, @seed = 2 }')),
+        'unknown key "seed" in start; known keys: name, smallest_gap'),
+    "uniform start with a gap": (bad((SOURCE, SOURCE + '\nstart = { name = "uniform", @smallest_gap = 0.1 }')),
+                                 'unknown key "smallest_gap" in start; known keys: name'),
     "unknown source": (bad((SOURCE, 'source = @"exact"')), 'source = "exact"; it must be one of "local", "nonlocal"'),
     "unknown source rule": (STUDY + '[source]\nrule = @"simpson"\n',
                             'rule = "simpson"; it must be one of "gauss", "gsl", "boost"'),

@@ -115,7 +115,9 @@ class Results(ProgramTest):
 
     def test_a_study_becomes_two_files_and_a_line_per_series(self):
         self.assertEqual(sorted(file.name for file in self.out.iterdir()), ["tiny.h5", "tiny.json"])
-        self.assertEqual(self.done.stderr, "")
+        # Model II takes steps for which its lemma does not answer.
+        for line in self.done.stderr.splitlines():
+            self.assertRegex(line, "^acstudy: note: tiny: Model II, .* beyond the bound of Lemma 3.3, by a factor of up ")
         self.assertEqual(len(self.done.stdout.splitlines()), 1 + 9 + 1)
         self.assert_counts(self.done, CASES_OF_WIDE, 0)
 
@@ -186,8 +188,9 @@ class Results(ProgramTest):
                 elif key != "pairwise":
                     equal(value, group.attrs[f"observed_{key}"], key)
             self.assertEqual(series["observed"]["pairwise"], list(group["pairwise"]))
-            flat = [{key: value for key, value in case.items() if key != "work"} |
-                    {f"work_{key}": value for key, value in case["work"].items()} for case in series["cases"]]
+            flat = [{key: value for key, value in case.items() if key not in ("work", "bound")} |
+                    {f"{part}_{key}": value for part in ("work", "bound") for key, value in case[part].items()}
+                    for case in series["cases"]]
             for key in flat[0]:
                 self.assertEqual([case[key] for case in flat], list(group[key]), key)
             self.assertEqual(sorted(group["cases"], key=int), [str(case["N"]) for case in flat])
@@ -581,9 +584,51 @@ class Gate(ProgramTest):
         series, = self.result(parse_constant=self.fail)["series"]
         for case in series["cases"]:
             self.assertIsNone(case["error_linf"])
-            self.assertIn("no longer finite after step", case["blow_up"])
+            self.assertIn("the solution has grown to", case["blow_up"])
         self.assertEqual(series["observed"]["pairwise"], [None, None])
         self.assertEqual(series["verdict"], "unstable")
+
+    def test_steps_beyond_the_bound_are_noted_and_judged_by_what_happens(self):
+        # Gaps close like exp(-t): h/4 keeps the bound until t = log 3.
+        done = self.run_study(edit(STUDY, (USE, USE + "\nT = 1.5"), ('"h/4"', '"h/4"\nexpect = "stable"')), expect=0)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertRegex(done.stderr, r"acstudy: note: tiny: Model I, local divergence, inverse, delta = 4h, N = 64: "
+                                      r"from step \d+ on \(t = 1\.\d+, smallest gap at x = 3\.\d+\) steps are beyond "
+                                      r"the bound of Lemma 2\.4, by a factor of up to 1\.\d+\n")
+        for case in self.result()["series"][0]["cases"]:
+            self.assertGreater(case["bound"]["largest"], 1.25)
+            self.assertAlmostEqual(case["bound"]["first_time"], math.log(3), delta=0.2)
+
+    def test_stable_expects_no_order_but_a_bounded_solution(self):
+        stable = ('source = "local"', 'source = "local"\nexpect = "stable"')
+        self.run_study(edit(GOOD, stable), expect=0)
+        self.run_study(edit(self.UNSTABLE, stable), expect=3)
+        case = self.result()["series"][0]["cases"][-1]
+        last, steps = case["last"], case["steps"]
+        self.assertIsNone(case["error_linf"])
+        self.assertEqual(last["step"], steps)
+        self.assertLess(last["time"], 1)
+        self.assertGreater(last["error_linf"], 1e5)
+        self.assertEqual(self.acstudy("check", "out/tiny.json").returncode, 1)
+
+    def test_each_way_to_step_is_a_series_with_its_own_expectation(self):
+        moving = edit(STUDY, ('kernel = "inverse"', 'kernel = "cubic-spline"'), ('"4*h"', '"h^2"'),
+                      (LEVELS, "[80, 160, 320, 640]"))
+        ways = ('[time]\nintegrator = "forward-euler"\nstep = "h/4"',
+                '[[time]]\nintegrator = "forward-euler"\nstep = "cfl"\nsafety = 0.5\n'
+                '[[time]]\nintegrator = "sdirk2"\nstep = "h"\nexpect = "stable"')
+        done = self.run_study(edit(moving, ways), expect=0)
+        self.assertEqual(done.stderr, "")
+        first, second = self.result()["series"]
+        self.assertEqual((first["stepping"], first["expected"]), ("forward-euler, step 0.5 cfl", "confirmed"))
+        self.assertEqual((second["stepping"], second["expected"]), ("sdirk2, step h", "stable"))
+        for case in first["cases"]:
+            self.assertLess(case["dt_smallest"], case["dt"])
+            self.assertLessEqual(case["bound"]["largest"], 0.5 + 1e-12)
+        checked = self.acstudy("check", "out/tiny.json")
+        self.assertEqual(checked.returncode, 0, checked.stdout)
+        self.assertIn("delta = 4h, sdirk2, step h ", checked.stdout)
+        self.assert_counts(self.run_study(edit(moving, ways), expect=0), 0, 8)
 
     def test_unstable_expected_but_stable_departs(self):
         self.run_study(edit(GOOD, ('source = "local"', 'source = "local"\nexpect = "unstable"')), expect=1)

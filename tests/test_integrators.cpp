@@ -163,8 +163,8 @@ TEST_CASE("bounded steps stay within the bound, end at T and are never much smal
     std::int64_t count = 0;
     while (const auto step = steps.next()) {
       CHECK(step->begin == end);
-      CHECK(step->length() <= bound(step->begin) * (1.0 + 1e-12));
-      CHECK(step->length() >= 0.5 * std::min(bound(step->begin), T));
+      CHECK(step->dt <= bound(step->begin) * (1.0 + 1e-12));
+      CHECK(step->dt >= 0.5 * std::min(bound(step->begin), T));
       end = step->end;
       ++count;
     }
@@ -173,7 +173,7 @@ TEST_CASE("bounded steps stay within the bound, end at T and are never much smal
   }
   // A bound that does not change gives equal steps.
   BoundedSteps equal(1.0, [](double) { return 0.3; });
-  for (int n = 0; n < 4; ++n) CHECK_THAT(equal.next()->length(), WithinRel(0.25, 1e-14));
+  for (int n = 0; n < 4; ++n) CHECK_THAT(equal.next()->dt, WithinRel(0.25, 1e-14));
   CHECK(!equal.next());
   BoundedSteps stuck(1.0, [](double t) { return t == 0.0 ? 0.5 : 1e-300; });
   CHECK(stuck.next());

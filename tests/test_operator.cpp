@@ -39,6 +39,8 @@ class Mistaken : public Scheme {
     for (std::size_t j = 0; j < du.size(); ++j) du[j] *= 1.5;
   }
   Stencil stencil(std::ptrdiff_t j) const override { return right_->stencil(j); }
+  void matrix(RateMatrix& R) const override { right_->matrix(R); }
+  double strongest_decay() const override { return right_->strongest_decay(); }
   WorkCounts work() const override { return right_->work(); }
 
  private:

@@ -15,23 +15,7 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
     return subject.scheme.model == 2 ? smallest / (2.0 * subject.mu)
                                      : smallest / subject.scene->max_relative_velocity();
   }
-  std::vector<double> c_hat(x.size()), b(x.size(), 0.0);
-  subject.scene->c(x, c_hat);
-  if (!subject.scene->standing()) subject.scene->b(x, b);
-  double strongest = 0.0;
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    const Stencil stencil = placed.scheme().stencil(static_cast<std::ptrdiff_t>(j));
-    const double* const y = particles.x.at(static_cast<std::ptrdiff_t>(j));
-    double sum = 0.0, reach = particles.delta;
-    for (std::size_t k = 0; k < stencil.offset.size(); ++k) {
-      const double z = y[stencil.offset[k]] - y[0];
-      sum += subject.scheme.model == 2 ? stencil.weight[k] / z : stencil.weight[k];
-      reach = std::max(reach, std::abs(z));
-    }
-    strongest = std::max(strongest, subject.scheme.model == 2 ? subject.mu * reach / stencil.renormalization * sum
-                                                              : std::abs(c_hat[j] - b[j]) * sum);
-  }
-  return 1.0 / strongest;
+  return 1.0 / placed.scheme().strongest_decay();
 }
 
 namespace {

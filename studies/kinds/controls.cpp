@@ -176,6 +176,11 @@ Expectations read_expectations(const Table& table, const std::vector<Column>& co
 void read_controls(const Table& root, Study& study) {
   root.allow({"study", "scene", "time", "source", "path", "consistency", "scheme", "control"});
   const Stepping time = read_problem(root, study);
+  if (time.integrator->implicit()) {
+    root.place(*root.find("time"))
+        .fail(fmt::format("integrator = \"{}\"; a control has no matrix to solve with: write an explicit one",
+                          time.integrator->name));
+  }
   const auto scene = study.scene;
   const auto constant = std::make_shared<const Scene>(SceneText{.name = "",
                                                                 .period = "1",

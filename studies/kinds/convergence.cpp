@@ -9,7 +9,7 @@ namespace acstudy {
 
 void read_convergence(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "time", "path", "source"});
-  const Stepping time = read_problem(root, study);
+  const std::vector<Stepping> steppings = read_problem_with_steppings(root, study);
 
   const std::vector<Table> path_tables = root.array_of_tables("path");
   std::vector<PathChoice> paths;
@@ -24,7 +24,9 @@ void read_convergence(const Table& root, Study& study) {
   for (const SchemeEntry& entry : read_schemes(root, *study.scene)) {
     for (std::size_t p = 0; p < paths.size(); ++p) {
       const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
-      study.series.push_back(make_series(study, time, entry, paths[p], at_delta));
+      for (const Stepping& time : steppings) {
+        study.series.push_back(make_series(study, time, entry, paths[p], at_delta));
+      }
     }
   }
 }

@@ -123,10 +123,7 @@ void read_pollution(const Table& root, Study& study) {
       Reruns reruns{};
       reruns.time_order = c.integrator->order;
       reruns.base = rerun("as it is", [](Case&) {});
-      reruns.halved_step = rerun("step halved", [](Case& changed) {
-        changed.steps *= 2;
-        changed.dt *= 0.5;
-      });
+      reruns.halved_step = rerun("step halved", [](Case& changed) { changed.halve_steps(); });
       if (c.integrator->name != "ssprk3") {
         reruns.third_order = rerun("ssprk3", [](Case& changed) {
           changed.integrator = std::find_if(std::begin(integrators), std::end(integrators),

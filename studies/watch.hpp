@@ -1,0 +1,92 @@
+#pragma once
+
+/// @file
+/// Watches a run: is it within its bounds, and does it still make sense?
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/integrators.hpp"
+#include "studies/run_case.hpp"
+
+namespace acstudy {
+
+/// Compares explicit steps with the bound of their lemma at the particles of each stage.
+class BoundWatch {
+ public:
+  /// A stage is evaluated at particles whose lemma allows steps up to `bound`; the smallest gap begins at `place`.
+  void stage(double bound, double place) {
+    if (bound < bound_) {
+      bound_ = bound;
+      place_ = place;
+    }
+  }
+  /// A step has been done.
+  void step(std::int64_t n, TimeStep step);
+  const StepsAgainstBound& result() const { return result_; }
+
+ private:
+  double bound_ = std::numeric_limits<double>::infinity(), place_ = 0.0;
+  StepsAgainstBound result_;
+};
+
+/// Gives up a run whose values are not finite, or a million times larger than those of the exact solution.
+///
+/// A stable run is as large as the exact solution and its error. That far beyond it nothing but exponential growth
+/// leads, and nothing leads back.
+class GrowthWatch {
+ public:
+  static constexpr double most = 1e6;
+
+  /// @param u  at the start
+  explicit GrowthWatch(std::span<const double> u);
+
+  /// Looks at the state after a step; false if the run must end.
+  /// @param exact_size  exact_size() is the largest |u| of the exact solution at this time; called on suspicion only
+  template <class ExactSize>
+  bool makes_sense(std::int64_t n, double t, std::span<double> u, ExactSize&& exact_size);
+
+  /// Puts the last finite state back.
+  void restore(std::span<double> u) const { std::copy(last_u_.begin(), last_u_.end(), u.begin()); }
+
+  /// Why the run ended; empty if it need not. `last` has step, time and particle then.
+  const std::string& blow_up() const { return blow_up_; }
+  const LastState& last() const { return last_; }
+
+ private:
+  /// Largest |u|; NaN or infinite if one is.
+  static double size(std::span<const double> u);
+  void give_up(std::int64_t n, double t, std::span<const double> u, std::int64_t last_step, double last_t,
+               const std::string& how);
+
+  double exact_;                ///< largest |u| of the exact solution so far
+  std::vector<double> last_u_;  ///< the last finite state, and its time
+  double last_t_ = 0.0;
+  std::string blow_up_;
+  LastState last_;
+};
+
+template <class ExactSize>
+bool GrowthWatch::makes_sense(std::int64_t n, double t, std::span<double> u, ExactSize&& exact_size) {
+  const double now = size(u);
+  if (!std::isfinite(now)) {
+    give_up(n, t, u, n - 1, last_t_, "is no longer finite");
+    restore(u);
+    return false;
+  }
+  if (now > most * exact_) exact_ = std::max(exact_, exact_size());
+  if (now > most * exact_) {
+    give_up(n, t, u, n, t, fmt::format("has grown to {:.3g}, the exact one to {:.3g},", now, exact_));
+    return false;
+  }
+  std::copy(u.begin(), u.end(), last_u_.begin());
+  last_t_ = t;
+  return true;
+}
+
+}  // namespace acstudy

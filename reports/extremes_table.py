@@ -16,18 +16,18 @@ def html(study, entries):
     """
     if not entries:
         return ""
-    finest = {id(entry): _finest(finding) for entry, finding in zip(entries, study.findings)}
+    of = {id(entry): finding for entry, finding in zip(entries, study.findings)}
     extremes = {}
     for entry in entries:
         extremes.setdefault(entry.statement, {}).setdefault(entry.claim, []).append(entry)
-    rows = "".join(_row(study, extreme, claim, group, finest, len(expectations) if i == 0 else 0)
+    rows = "".join(_row(study, extreme, claim, group, of, len(expectations) if i == 0 else 0)
                    for extreme, expectations in extremes.items()
                    for i, (claim, group) in enumerate(expectations.items()))
     folds = "".join(_fold(study, extreme, expectations) for extreme, expectations in extremes.items())
     return markup.table(COLUMNS, rows, study.title) + folds
 
 
-def _row(study, extreme, claim, group, finest, span):
+def _row(study, extreme, claim, group, of, span):
     expectation = findings.Statement(extreme, tuple(group))
     caught = sum(entry.as_expected for entry in expectation.controls)
     departing = expectation.departing
@@ -37,8 +37,9 @@ def _row(study, extreme, claim, group, finest, span):
     tested = f'<br><span class="note">{len(expectation.tested)} findings on {schemes} subjects</span>' if schemes > 1 else ""
     said = f"<strong>{len(departing)} of {len(group)} not</strong>" if departing else "all"
     worst = expectation.worst
-    note = f'<br><span class="note">{finest[id(worst)]}</span>' if finest[id(worst)] else ""
-    return (f'<tr{markup.departs_if(departing)}>{head}<td class="said">{escape(claim)}{tested}</td>'
+    quantity, finest = of[id(worst)].quantity, _finest(of[id(worst)])
+    note = f'<br><span class="note">{escape(finest)}</span>' if finest else ""
+    return (f'<tr{markup.departs_if(departing)}>{head}<td class="said">{escape(claim)}<br><span class="note">{escape(quantity)}</span>{tested}</td>'
             f'<td class="said">{claims.worst_observed(expectation)}{note}</td>'
             f"<td>{markup.badge(worst, worst.control)}</td>"
             f"<td>{caught} of {len(expectation.controls)} fail</td><td>{said}</td></tr>\n")
@@ -58,8 +59,8 @@ def _finest(finding):
     points = finding.points
     if finding.test not in ("order", "rate") or not len(points) or finding.control:
         return ""
-    where = f" at N = {points.N[-1]}" if points.N[0] != points.N[-1] else ""
-    return f"{points.value[-1]:.2g}{where}"
+    level = f"N = {points.N[-1]}" if points.N[0] != points.N[-1] else f"{finding.variable} = {points.variable[-1]:.2g}"
+    return f"{points.value[-1]:.2g} at {level}"
 
 
 def _anchor(study, extreme):

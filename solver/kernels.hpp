@@ -3,10 +3,12 @@
 /// @file
 /// Interaction kernels and their cell moments in closed form.
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <numbers>
 #include <stdexcept>
+
+#include "solver/cells.hpp"
 
 namespace acstudy {
 
@@ -20,15 +22,17 @@ namespace acstudy {
 /// |-----------------------|-----------------------------------------------------------------------------------------|
 /// | `k.eta(z)`            | eta(z) >= 0, 0 < z < 1                                                                   |
 /// | `k.first_moment(z)`   | int_0^z r eta(r) dr, nondecreasing, 0 at z = 0 and 1 at z = 1                            |
-/// | `k.origin_exponent()` | a < 2 such that z^a eta(z) is smooth up to z = 0                                         |
-/// | `k.regular_part(z)`   | z^a eta(z), 0 <= z <= 1                                                                  |
-/// | `k.breakpoint()`      | the interior point where eta is not smooth, or 1 if there is none                        |
+/// | `k.first_moment(cell)`| int r eta(r) dr over the cell, >= 0, to a few units in the last place however narrow it is
+/// | | `k.origin_exponent()` | a < 2 such that z^a eta(z) is smooth up to z = 0 | | `k.regular_part(z)`   | z^a eta(z),
+/// 0 <= z <= 1                                                                  | | `k.breakpoint()`      | the
+/// interior point where eta is not smooth, or 1 if there is none                        |
 ///
 /// Arguments are distances in units of the horizon, 0 <= z <= 1.
 template <class K>
-concept Kernel = requires(const K k, double z) {
+concept Kernel = requires(const K k, double z, const Cell& cell) {
   { k.eta(z) } -> std::same_as<double>;
   { k.first_moment(z) } -> std::same_as<double>;
+  { k.first_moment(cell) } -> std::same_as<double>;
   { k.origin_exponent() } -> std::same_as<double>;
   { k.regular_part(z) } -> std::same_as<double>;
   { k.breakpoint() } -> std::same_as<double>;
@@ -36,22 +40,37 @@ concept Kernel = requires(const K k, double z) {
 
 /// A kernel that Model II can use as well: eta itself is integrable, so that its cell integrals exist (3.3).
 ///
-/// | expression  | meaning                                    |
-/// |-------------|--------------------------------------------|
-/// | `k.mass(z)` | int_0^z eta(r) dr, nondecreasing           |
+/// | expression     | meaning                                                    |
+/// |----------------|------------------------------------------------------------|
+/// | `k.mass(z)`    | int_0^z eta(r) dr, nondecreasing                           |
+/// | `k.mass(cell)` | int eta(r) dr over the cell, >= 0, as exact as the moment  |
 template <class K>
-concept IntegrableKernel = Kernel<K> && requires(const K k, double z) {
+concept IntegrableKernel = Kernel<K> && requires(const K k, double z, const Cell& cell) {
   { k.mass(z) } -> std::same_as<double>;
+  { k.mass(cell) } -> std::same_as<double>;
 };
+
+// Over a cell [a, b] the closed forms f(b) - f(a) lose the digits that both ends have in common: 8 to 12 of them at a
+// horizon of 1e4 spacings. Factored, with the width of the cell in front, they lose none.
 
 /// eta(z) = 1/z: the singular kernel of section 4.1. Its cell moments are the cell lengths.
 struct InverseKernel {
   double eta(double z) const { return 1.0 / z; }
   double first_moment(double z) const { return z; }
+  double first_moment(const Cell& cell) const { return cell.width; }
   double origin_exponent() const { return 1.0; }
   double regular_part(double) const { return 1.0; }
   double breakpoint() const { return 1.0; }
 };
+
+/// b^p - a^p = -b^p expm1(p log(a/b)) over a cell [a, b], p > 0.
+inline double power_difference(const Cell& cell, double p) {
+  const double b_p = std::pow(cell.outer, p);
+  if (cell.inner == 0.0) return b_p;
+  const double log_ratio = cell.width < 0.5 * cell.outer ? std::log1p(-cell.width / cell.outer)  //
+                                                         : std::log(cell.inner / cell.outer);
+  return b_p * -std::expm1(p * log_ratio);
+}
 
 /// eta(z) = (2 - alpha) z^(-alpha), alpha < 2, for Model I.
 class PowerKernel {
@@ -63,6 +82,7 @@ class PowerKernel {
   double alpha() const { return alpha_; }
   double eta(double z) const { return (2.0 - alpha_) * std::pow(z, -alpha_); }
   double first_moment(double z) const { return std::pow(z, 2.0 - alpha_); }
+  double first_moment(const Cell& cell) const { return power_difference(cell, 2.0 - alpha_); }
   double origin_exponent() const { return alpha_; }
   double regular_part(double) const { return 2.0 - alpha_; }
   double breakpoint() const { return 1.0; }
@@ -79,6 +99,9 @@ class IntegrablePowerKernel : public PowerKernel {
     if (alpha >= 1.0) throw std::invalid_argument("integrable power kernel needs alpha < 1");
   }
   double mass(double z) const { return (2.0 - alpha()) / (1.0 - alpha()) * std::pow(z, 1.0 - alpha()); }
+  double mass(const Cell& cell) const {
+    return (2.0 - alpha()) / (1.0 - alpha()) * power_difference(cell, 1.0 - alpha());
+  }
 };
 
 /// The derivative of the cubic B-spline rho, whose support |zeta| <= 2 is scaled onto the horizon (zeta = 2 z):
@@ -96,9 +119,36 @@ struct CubicSplineKernel {
     const double zeta = 2.0 * z, y = 2.0 - zeta;
     return zeta <= 1.0 ? zeta * zeta * zeta * (4.0 / 3.0 - 0.75 * zeta) : 1.0 - y * y * y * (2.0 / 3.0 - 0.25 * y);
   }
+  double mass(const Cell& cell) const {
+    const auto inside = [](double width, double sum, double product) { return width * (sum * (1.0 - sum) + product); };
+    const auto outside = [](double width, double sum, double product) { return width * (sum * sum - product) / 3.0; };
+    return 16.0 * cut(cell, inside, outside);
+  }
+  double first_moment(const Cell& cell) const {
+    const auto inside = [](double width, double sum, double product) {
+      return width * (sum * sum * (8.0 - 9.0 * sum) - product * (8.0 - 18.0 * sum));
+    };
+    const auto outside = [](double width, double sum, double product) {
+      return width * (sum * sum * (4.0 - 3.0 * sum) - product * (4.0 - 6.0 * sum));
+    };
+    return 4.0 / 3.0 * cut(cell, inside, outside);
+  }
   double origin_exponent() const { return 0.0; }
   double regular_part(double z) const { return eta(z); }
   double breakpoint() const { return 0.5; }
+
+ private:
+  /// A cell cut at z = 1/2. Both parts are polynomials with their width as a factor: inside in the distances of the two
+  /// ends, outside in their distances to the horizon, and of these in the sum and the product.
+  template <class Inside, class Outside>
+  static double cut(const Cell& cell, Inside inside, Outside outside) {
+    const auto [a, b, width, rest_a, rest_b] = cell;
+    if (b <= 0.5) return inside(width, a + b, a * b);
+    if (rest_a <= 0.5) return outside(width, rest_a + rest_b, rest_a * rest_b);
+    // Round-off in where it is cut is harmless: the widths add up to that of the cell, and eta is continuous.
+    const double width_inside = std::clamp(0.5 - a, 0.0, width);
+    return inside(width_inside, a + 0.5, a * 0.5) + outside(width - width_inside, 0.5 + rest_b, 0.5 * rest_b);
+  }
 };
 
 }  // namespace acstudy

@@ -17,6 +17,20 @@
 
 namespace acstudy {
 
+/// W_1 .. W_L of one particle that looks left (s = +1) or right (s = -1), nearest neighbor first; see ModelI.
+///
+/// @param x  at the particle; its neighbors are x[-s k]
+template <int s, Kernel K>
+void upwind_weights(const K& kernel, const double* x, double delta, std::span<double> W) {
+  const std::ptrdiff_t L = std::ssize(W);
+  CellWalk cells(delta);
+  for (std::ptrdiff_t k = 1; k < L; ++k) {
+    const double d = s * (x[0] - x[-s * k]), gap = s * (x[-s * (k - 1)] - x[-s * k]);
+    W[k - 1] = kernel.first_moment(cells.to(d, gap)) / d;
+  }
+  W[L - 1] = kernel.first_moment(cells.to_horizon()) / (s * (x[0] - x[-s * L]));
+}
+
 /// Semidiscrete Model I, without the source: du_j/dt = rate_j(u).
 ///
 /// With s = +1 where c_hat_j > 0 (look left) and s = -1 otherwise (look right), neighbor k of particle j is i = j - s k
@@ -74,9 +88,6 @@ class ModelI {
   void set_velocities(const Particles& particles, const V& velocity);
 
   template <int s>
-  void set_weights(std::ptrdiff_t j, const Particles& particles);
-
-  template <int s>
   double upwind_sum(std::ptrdiff_t j, const PeriodicArray& u) const;
 
   K kernel_;
@@ -101,7 +112,12 @@ void ModelI<K, Divergence>::place(const Particles& particles, const V& velocity)
     offset_[j + 1] = offset_[j] + (looks_left(j) ? particles.windows.left[j] : particles.windows.right[j]);
   }
   weights_.resize(offset_[n]);
-  for (std::ptrdiff_t j = 0; j < n; ++j) looks_left(j) ? set_weights<+1>(j, particles) : set_weights<-1>(j, particles);
+  for (std::ptrdiff_t j = 0; j < n; ++j) {
+    const double* const x = particles.x.at(j);
+    const std::span<double> W(weights_.data() + offset_[j], weights_.data() + offset_[j + 1]);
+    looks_left(j) ? upwind_weights<+1>(kernel_, x, particles.delta, W)
+                  : upwind_weights<-1>(kernel_, x, particles.delta, W);
+  }
   ++work_.weight_builds;
 }
 
@@ -130,21 +146,6 @@ void ModelI<K, Divergence>::set_velocities(const Particles& particles, const V& 
     work_.velocity_evaluations += (local ? 2 : 1) * std::ssize(x);
   }
   c_hat_.wrap(widest_);
-}
-
-template <Kernel K, class Divergence>
-template <int s>
-void ModelI<K, Divergence>::set_weights(std::ptrdiff_t j, const Particles& particles) {
-  const std::ptrdiff_t L = offset_[j + 1] - offset_[j];
-  double* const W = weights_.data() + offset_[j];
-  const double* const x = particles.x.at(j);
-  double inner = 0.0;
-  for (std::ptrdiff_t k = 1; k <= L; ++k) {
-    const double d = s * (x[0] - x[-s * k]);
-    const double outer = k < L ? kernel_.first_moment(std::min(d / particles.delta, 1.0)) : 1.0;
-    W[k - 1] = (outer - inner) / d;
-    inner = outer;
-  }
 }
 
 template <Kernel K, class Divergence>

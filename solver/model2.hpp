@@ -17,6 +17,25 @@
 
 namespace acstudy {
 
+/// The integrals m_k of eta over the cells of one particle on its right (side = +1) or left (side = -1), in units of
+/// the horizon. They are 2 delta |W_{j,k}|; see ModelII.
+///
+/// @param x  at the particle; its neighbors are x[side k], k = 1 .. last
+/// @param m  m_k is written to m[side (k - 1)]
+/// @return   sum_k d_k m_k, the part of this side in 2 delta N_j
+template <int side, IntegrableKernel K>
+double set_masses(const K& kernel, const double* x, double delta, std::ptrdiff_t last, double* m) {
+  double moment = 0.0;
+  CellWalk cells(delta);
+  for (std::ptrdiff_t k = 1; k < last; ++k) {
+    const double d = side * (x[side * k] - x[0]), gap = side * (x[side * k] - x[side * (k - 1)]);
+    const double mass = m[side * (k - 1)] = kernel.mass(cells.to(d, gap));
+    moment += d * mass;
+  }
+  const double mass = m[side * (last - 1)] = kernel.mass(cells.to_horizon());
+  return moment + side * (x[side * last] - x[0]) * mass;
+}
+
 /// Semidiscrete Model II, without the source: du_j/dt = rate_j(u).
 ///
 /// W_{j,k} is the integral of w^delta(y - x_j) over the cell between neighbors k - 1 and k, the outermost cell reaching
@@ -55,11 +74,13 @@ class ModelII {
   double strongest_decay() const;
 
   /// W_{j,k} for k = -l_j .. -1, 1 .. r_j.
-  std::span<const double> weights(std::ptrdiff_t j) const {
-    return {weights_.data() + offset_[j], weights_.data() + offset_[j + 1]};
+  std::vector<double> weights(std::ptrdiff_t j) const {
+    std::vector<double> W(masses_.data() + offset_[j], masses_.data() + offset_[j + 1]);
+    for (double& W_k : W) W_k /= 2.0 * delta_;
+    return W;
   }
   /// N_j.
-  double renormalization(std::ptrdiff_t j) const { return N_[j]; }
+  double renormalization(std::ptrdiff_t j) const { return moments_[j] / (2.0 * delta_); }
 
   const WorkCounts& work() const { return work_; }
 
@@ -79,7 +100,7 @@ class ModelII {
   /// The pairs (j, j+k), k = 1 .. r_j, each stored once: what both of its particles need.
   struct Pairs {
     std::vector<std::ptrdiff_t> offset;
-    std::vector<double> distance, inverse_distance, mass, midpoint, c_hat;
+    std::vector<double> distance, inverse_distance, midpoint, c_hat;
     [[no_unique_address]] std::conditional_t<standing, Nothing, MidpointParticleVelocity> particle_velocity;
   };
 
@@ -88,21 +109,25 @@ class ModelII {
   void set_weights(std::ptrdiff_t j, const Particles& particles);
 
   struct Sums {
-    double N = 0.0, B = 0.0;
+    double moment = 0.0, B = 0.0;
   };
-  /// Fills W, W/(x_i - x_j) and c_hat for the neighbors on one side and returns their part of N_j and of N_j B_j / 2.
+  /// Fills m, m/(x_i - x_j) and c_hat for the neighbors on one side and returns their part of the moment and of
+  /// sum b m.
   template <int side>
-  Sums set_side(std::ptrdiff_t j, int last, double delta);
+  Sums set_side(std::ptrdiff_t j, int last, const Particles& particles);
 
+  // W_{j,k} = m_{j,k}/(2 delta), and N_j likewise: every rate is a quotient in which 1/(2 delta) cancels, so it is not
+  // put in. At a horizon of 1e-200 it would overflow.
   K kernel_;
-  double mu_;
+  double mu_, delta_ = 0.0;
   Pairs pairs_;
   std::vector<std::ptrdiff_t> offset_;
   std::vector<int> left_;
-  std::vector<double> weights_;         ///< W_{j,k}, k = -l_j .. -1, 1 .. r_j, particle after particle
-  std::vector<double> slopes_;          ///< W_{j,k} / (x_i - x_j)
+  std::vector<double> masses_;  ///< m_{j,k} = 2 delta W_{j,k}, k = -l_j .. -1, 1 .. r_j, particle after particle
+  std::vector<double> slopes_;  ///< m_{j,k} / (x_i - x_j)
   std::vector<double> midpoint_c_hat_;  ///< c_hat((x_j + x_i)/2)
-  std::vector<double> N_, reach_;
+  std::vector<double> moments_;         ///< 2 delta N_j
+  std::vector<double> reach_;
   [[no_unique_address]] std::conditional_t<standing, Nothing, DivergenceTerm> divergence_;
   int widest_ = 0;
   WorkCounts work_;
@@ -114,6 +139,7 @@ void ModelII<K, Divergence>::place(const Particles& particles, const V& velocity
   const auto n = std::ssize(particles.x);
   widest_ = particles.windows.widest;
   left_ = particles.windows.left;
+  delta_ = particles.delta;
   set_pairs(particles, velocity);
 
   offset_.resize(n + 1);
@@ -121,8 +147,8 @@ void ModelII<K, Divergence>::place(const Particles& particles, const V& velocity
   for (std::ptrdiff_t j = 0; j < n; ++j) {
     offset_[j + 1] = offset_[j] + particles.windows.left[j] + particles.windows.right[j];
   }
-  for (auto* column : {&weights_, &slopes_, &midpoint_c_hat_}) column->resize(offset_[n]);
-  for (auto* column : {&N_, &reach_}) column->resize(n);
+  for (auto* column : {&masses_, &slopes_, &midpoint_c_hat_}) column->resize(offset_[n]);
+  for (auto* column : {&moments_, &reach_}) column->resize(n);
   if constexpr (!standing) divergence_.factor.resize(n);
   if constexpr (local) {
     velocity.b_prime(particles.x.values(), divergence_.factor);
@@ -141,7 +167,7 @@ void ModelII<K, Divergence>::set_pairs(const Particles& particles, const V& velo
   pairs_.offset[0] = 0;
   for (std::ptrdiff_t j = 0; j < n; ++j) pairs_.offset[j + 1] = pairs_.offset[j] + right[j];
   const auto count = static_cast<std::size_t>(pairs_.offset[n]);
-  for (auto* column : {&pairs_.distance, &pairs_.inverse_distance, &pairs_.mass, &pairs_.midpoint, &pairs_.c_hat})
+  for (auto* column : {&pairs_.distance, &pairs_.inverse_distance, &pairs_.midpoint, &pairs_.c_hat})
     column->resize(count);
   for (std::ptrdiff_t j = 0; j < n; ++j) {
     const double* const x = particles.x.at(j);
@@ -152,10 +178,7 @@ void ModelII<K, Divergence>::set_pairs(const Particles& particles, const V& velo
       midpoint[k - 1] = 0.5 * (x[0] + x[k]);
     }
   }
-  for (std::size_t p = 0; p < count; ++p) {
-    pairs_.inverse_distance[p] = 1.0 / pairs_.distance[p];
-    pairs_.mass[p] = kernel_.mass(std::min(pairs_.distance[p] / particles.delta, 1.0));
-  }
+  for (std::size_t p = 0; p < count; ++p) pairs_.inverse_distance[p] = 1.0 / pairs_.distance[p];
   velocity.c(pairs_.midpoint, pairs_.c_hat);
   work_.velocity_evaluations += std::ssize(pairs_.midpoint);
   if constexpr (!standing) {
@@ -169,24 +192,20 @@ void ModelII<K, Divergence>::set_pairs(const Particles& particles, const V& velo
 
 template <IntegrableKernel K, class Divergence>
 template <int side>
-typename ModelII<K, Divergence>::Sums ModelII<K, Divergence>::set_side(std::ptrdiff_t j, int last, double delta) {
+typename ModelII<K, Divergence>::Sums ModelII<K, Divergence>::set_side(std::ptrdiff_t j, int last,
+                                                                       const Particles& particles) {
   const auto n = std::ssize(pairs_.offset) - 1;
-  const double whole = kernel_.mass(1.0), scale = side / (2.0 * delta);
   const std::ptrdiff_t first = offset_[j] + left_[j] - (side < 0 ? 1 : 0);
   Sums sums;
-  double inner = 0.0;
+  sums.moment = set_masses<side>(kernel_, particles.x.at(j), particles.delta, last, masses_.data() + first);
   for (int k = 1; k <= last; ++k) {
     // The pair is stored with its left particle.
     const std::ptrdiff_t i = side > 0 ? j : (j >= k ? j - k : j - k + n);
     const std::ptrdiff_t p = pairs_.offset[i] + k - 1, q = first + side * (k - 1);
-    const double outer = k < last ? pairs_.mass[p] : whole;
-    const double W = scale * (outer - inner);
-    weights_[q] = W;
-    slopes_[q] = side * W * pairs_.inverse_distance[p];
+    slopes_[q] = masses_[q] * pairs_.inverse_distance[p];
+    masses_[q] *= side;
     midpoint_c_hat_[q] = pairs_.c_hat[p];
-    sums.N += side * pairs_.distance[p] * W;
-    if constexpr (nonlocal) sums.B += pairs_.particle_velocity.b[p] * W;
-    inner = outer;
+    if constexpr (nonlocal) sums.B += pairs_.particle_velocity.b[p] * masses_[q];
   }
   return sums;
 }
@@ -195,24 +214,24 @@ template <IntegrableKernel K, class Divergence>
 void ModelII<K, Divergence>::set_weights(std::ptrdiff_t j, const Particles& particles) {
   const int l = particles.windows.left[j], r = particles.windows.right[j];
   const double* const x = particles.x.at(j);
-  const Sums left = set_side<-1>(j, l, particles.delta), right = set_side<+1>(j, r, particles.delta);
-  N_[j] = left.N + right.N;
+  const Sums left = set_side<-1>(j, l, particles), right = set_side<+1>(j, r, particles);
+  moments_[j] = left.moment + right.moment;
   reach_[j] = std::max({particles.delta, x[0] - x[-l], x[r] - x[0]});
-  if constexpr (nonlocal) divergence_.factor[j] = 2.0 / N_[j] * (left.B + right.B);
+  if constexpr (nonlocal) divergence_.factor[j] = 2.0 / moments_[j] * (left.B + right.B);
 }
 
 template <IntegrableKernel K, class Divergence>
 void ModelII<K, Divergence>::matrix(RateMatrix& R) const {
-  const std::ptrdiff_t n = std::ssize(N_);
+  const std::ptrdiff_t n = std::ssize(moments_);
   R.clear();
   for (std::ptrdiff_t j = 0; j < n; ++j) {
     double own = 0.0;
     if constexpr (!standing) own -= divergence_.factor[j];
     for (std::ptrdiff_t q = offset_[j]; q < offset_[j + 1]; ++q) {
       const std::ptrdiff_t left = q - offset_[j] - left_[j], k = left < 0 ? left : left + 1;
-      const double transport = -midpoint_c_hat_[q] * weights_[q], viscous = mu_ * reach_[j] * slopes_[q];
-      R.add(j + k, n, (transport + viscous) / N_[j]);
-      own += (transport - viscous) / N_[j];
+      const double transport = -midpoint_c_hat_[q] * masses_[q], viscous = mu_ * reach_[j] * slopes_[q];
+      R.add(j + k, n, (transport + viscous) / moments_[j]);
+      own += (transport - viscous) / moments_[j];
     }
     R.add(j, n, own);
     R.end_row();
@@ -222,10 +241,10 @@ void ModelII<K, Divergence>::matrix(RateMatrix& R) const {
 template <IntegrableKernel K, class Divergence>
 double ModelII<K, Divergence>::strongest_decay() const {
   double strongest = 0.0;
-  for (std::ptrdiff_t j = 0; j < std::ssize(N_); ++j) {
+  for (std::ptrdiff_t j = 0; j < std::ssize(moments_); ++j) {
     double sum = 0.0;
     for (std::ptrdiff_t q = offset_[j]; q < offset_[j + 1]; ++q) sum += slopes_[q];
-    strongest = std::max(strongest, mu_ * reach_[j] / N_[j] * sum);
+    strongest = std::max(strongest, mu_ * reach_[j] / moments_[j] * sum);
   }
   return strongest;
 }
@@ -238,23 +257,23 @@ void ModelII<K, Divergence>::rate(PeriodicArray& u_, std::span<double> du) {
     double A = 0.0, D = 0.0;
     const auto sum_over = [&](std::ptrdiff_t first_neighbor, std::ptrdiff_t begin, std::ptrdiff_t end) {
       const double* const u_i = u + first_neighbor;
-      const double* const W = weights_.data() + begin;
+      const double* const m = masses_.data() + begin;
       const double* const slope = slopes_.data() + begin;
       const double* const c_hat = midpoint_c_hat_.data() + begin;
 #pragma omp simd reduction(+ : A, D)
-      for (std::ptrdiff_t m = 0; m < end - begin; ++m) {
-        A += c_hat[m] * (u[0] + u_i[m]) * W[m];
-        D += (u_i[m] - u[0]) * slope[m];
+      for (std::ptrdiff_t k = 0; k < end - begin; ++k) {
+        A += c_hat[k] * (u[0] + u_i[k]) * m[k];
+        D += (u_i[k] - u[0]) * slope[k];
       }
     };
     const std::ptrdiff_t middle = offset_[j] + left_[j];
     sum_over(-left_[j], offset_[j], middle);
     sum_over(+1, middle, offset_[j + 1]);
 
-    du[j] = (-A + mu_ * reach_[j] * D) / N_[j];
+    du[j] = (-A + mu_ * reach_[j] * D) / moments_[j];
     if constexpr (!standing) du[j] -= divergence_.factor[j] * u[0];
   }
-  work_.pairs += std::ssize(weights_);
+  work_.pairs += std::ssize(masses_);
 }
 
 }  // namespace acstudy

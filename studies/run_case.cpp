@@ -43,7 +43,7 @@ Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const 
     // Once NaN, it stays: no comparison with a NaN is true.
     if (std::isnan(error) || error > errors.linf) errors.linf = error;
     errors.l1 += width * error;
-    errors.l2 = std::hypot(errors.l2, std::sqrt(width) * error);  // the square of an error may overflow
+    errors.l2 = std::hypot(errors.l2, std::sqrt(width) * error);  // a square of an error may overflow
   }
   errors.l1 /= scene.period();
   errors.l2 /= std::sqrt(scene.period());

@@ -57,6 +57,60 @@ TEST_CASE("first_moment and mass are the integrals of z eta and eta") {
   });
 }
 
+TEST_CASE("over a cell, first_moment and mass are differences of their values at its ends") {
+  for_each_kernel([](const std::string& name, auto kernel) {
+    INFO(name);
+    const Cell whole = CellWalk(3.0).to_horizon();
+    CHECK(kernel.first_moment(whole) == 1.0);
+    CellWalk cells(3.0);
+    double inner = 0.0;
+    for (const double outer : {0.1, 0.25, 0.3, 0.6, 0.75, 1.0}) {
+      CAPTURE(outer);
+      const Cell cell = outer < 1.0 ? cells.to(3.0 * outer, 3.0 * (outer - inner)) : cells.to_horizon();
+      CHECK_THAT(kernel.first_moment(cell), WithinRel(kernel.first_moment(outer) - kernel.first_moment(inner), 1e-13));
+      if constexpr (IntegrableKernel<decltype(kernel)>) {
+        CHECK_THAT(kernel.mass(cell), WithinRel(kernel.mass(outer) - kernel.mass(inner), 1e-13));
+        CHECK(kernel.mass(whole) == kernel.mass(1.0));
+      }
+      inner = outer;
+    }
+  });
+}
+
+TEST_CASE("over a cell however narrow, first_moment and mass keep their digits") {
+  // The midpoint rule is exact to the square of the width over the distance, 1e-16 and less.
+  for_each_kernel([](const std::string& name, auto kernel) {
+    for (const double width : {1e-9, 1e-10, 1e-12}) {
+      for (const double z : {0.1, 0.3, 0.5 - 0.4 * width, 0.5, 0.8}) {
+        INFO(name << ", z = " << z << ", width " << width);
+        const Cell cell{z, z + width, width, 1.0 - z, 1.0 - z - width};
+        const double middle = z + 0.5 * width, eta = kernel.eta(middle);
+        CHECK_THAT(kernel.first_moment(cell), WithinRel(middle * eta * width, 3e-15));
+        if constexpr (IntegrableKernel<decltype(kernel)>) CHECK_THAT(kernel.mass(cell), WithinRel(eta * width, 3e-15));
+        // Negative control: what the cells are there for.
+        if (width == 1e-12) {
+          CHECK(std::abs(kernel.first_moment(z + width) - kernel.first_moment(z) - middle * eta * width) >
+                1e-8 * middle * eta * width);
+        }
+      }
+    }
+  });
+}
+
+TEST_CASE("a cell of neighbors that tie with the horizon ends there, and the next one is empty") {
+  CellWalk cells(1.0);
+  const Cell beyond = cells.to(1.0 + 8e-12, 0.25 + 8e-12), next = cells.to(1.0 + 9e-12, 1e-12);
+  CHECK(beyond.outer == 1.0);
+  CHECK(beyond.rest_outer == 0.0);
+  CHECK(next.width == 0.0);
+  for_each_kernel([&](const std::string& name, auto kernel) {
+    INFO(name);
+    CHECK(kernel.first_moment(next) == 0.0);
+    CHECK(kernel.first_moment(cells.to_horizon()) == 0.0);
+    if constexpr (IntegrableKernel<decltype(kernel)>) CHECK(kernel.mass(next) == 0.0);
+  });
+}
+
 TEST_CASE("kernels are not negative and their integrals do not decrease") {
   for_each_kernel([](const std::string& name, auto kernel) {
     INFO(name);

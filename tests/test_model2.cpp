@@ -445,6 +445,24 @@ TEST_CASE("Lemma 3.3 as printed is not general: 2 dt mu = h_min can be too long 
   CHECK(norm(CubicSplineKernel{}, irregular_positions(120, period, 3, 2.0), 1.5 * period / 120.0) > 1.1);
 }
 
+TEST_CASE("nothing in a rate of Model II overflows at a horizon of 1e-200 with values of 1e300") {
+  const auto x = irregular_positions(N, period, 1);
+  std::vector<double> u = irregular_values(N, 2);
+  for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
+    INFO(equation);
+    const auto rates_at = [&](double delta, double amplitude) {
+      std::vector<double> values = u;
+      for (double& value : values) value *= amplitude;
+      auto scheme = placed_scheme<Divergence>(CubicSplineKernel{}, x, delta, uneven_velocity());
+      std::vector<double> result = rates(scheme, values);
+      for (double& value : result) value /= amplitude;
+      return result;
+    };
+    CHECK(relative_gap(rates_at(1e-200, 1e300), rates_at(1e-3 * h, 1.0)) < 1e-14);
+    CHECK(relative_gap(rates_at(1e-200, 1e-300), rates_at(1e-3 * h, 1.0)) < 1e-14);
+  });
+}
+
 TEST_CASE("Model II counts its work") {
   constexpr std::int64_t count = 20;
   const Particles particles = placed(uniform_positions(count, period), period, 3.0 * period / count);

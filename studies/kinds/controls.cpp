@@ -241,8 +241,8 @@ void read_controls(const Table& root, Study& study) {
 
   for (const Row& row : rows) {
     const std::string subject = scheme_label(row.entry.scheme, scene->standing());
-    using Cell = std::function<Finding(const std::vector<SeriesResult>&)>;
-    std::vector<Cell> cells;
+    using Measure = std::function<Finding(const std::vector<SeriesResult>&)>;
+    std::vector<Measure> cells;
     for (std::size_t p = 0; p < columns.size(); ++p) {
       Column column = columns[p];
       if (p < paths.size()) {
@@ -264,9 +264,9 @@ void read_controls(const Table& root, Study& study) {
       study.measurements.push_back({subject + "; " + column.name, cells.back()});
     }
     study.measurements.push_back({subject + "; alarms", [=](const std::vector<SeriesResult>& results) {
-                                    const auto count = std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
-                                      return cell(results).alarm();
-                                    });
+                                    const auto count =
+                                        std::count_if(cells.begin(), cells.end(),
+                                                      [&](const Measure& cell) { return cell(results).alarm(); });
                                     return alarms(row.entry.scheme.control, subject, static_cast<double>(count));
                                   }});
   }

@@ -144,6 +144,8 @@ def measured(finding):
     columns = points.value, points.lower, points.upper
     value, lower, upper = (f"{column[i]:.6g}".replace("-", "−") for column in columns)
     if math.isinf(points.lower[i]):
+        if value == upper != "0":
+            value, upper = (_beside(float(f"{points.upper[i]:.6g}"), one) for one in (points.value[i], points.upper[i]))
         return f"{value} ≤ {upper}" if points.value[i] <= points.upper[i] else f"{value} > {upper}"
     if math.isinf(points.upper[i]):
         return f"{value} ≥ {lower}" if points.value[i] >= points.lower[i] else f"{value} < {lower}"
@@ -153,6 +155,14 @@ def measured(finding):
         return f"|value − {middle:g}| = {deviation:.2g} {'≤' if deviation <= half else '>'} {half:.2g}"
     inside = points.lower[i] <= points.value[i] <= points.upper[i]
     return f"{value} {'in' if inside else 'outside'} [{lower}, {upper}]"
+
+
+def _beside(round_number, value):
+    """A value that differs from a round number by next to nothing: "1 + 2.2e−16"."""
+    if value == round_number or not math.isfinite(value):
+        return f"{round_number:.6g}"
+    sign = "+" if value > round_number else "−"
+    return f"{round_number:.6g} {sign} {abs(value - round_number):.2g}".replace("e-", "e−")
 
 
 def order_text(result):

@@ -4,6 +4,7 @@ from html import escape
 import math
 
 import claims
+import extremes_table
 import findings
 import markup
 import mutants
@@ -132,6 +133,8 @@ def _findings(study, drawings):
         parts.append(claims.entry_table(departing, f"{study.title}: not as expected"))
     if study.kind == "corpus":
         parts.append(claims.corpus_table(study))
+    elif study.kind == "extremes":
+        parts.append(extremes_table.html(study, every))
     elif every:
         parts.append(f"<details><summary>Every finding</summary>\n{claims.entry_table(every, study.title)}</details>\n")
     return "".join(parts) + _origin(study)

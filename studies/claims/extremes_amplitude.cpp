@@ -45,7 +45,7 @@ void compare_runs(Finding& row, const Subject& subject, double ratio, const std:
                             .upper = upper,
                             .label = fmt::format("{}, factor {:.3g}", what, factor)});
     };
-    double farthest = result.u.empty() ? NAN : 0.0;
+    double farthest = result.blow_up.empty() ? 0.0 : NAN;
     for (std::size_t j = 0; j < result.u.size(); ++j) {
       const double off = std::abs(result.u[j] / factor - base.u[j]);
       if (worse(off, farthest)) farthest = off;

@@ -34,6 +34,12 @@ std::vector<std::int64_t> read_levels(const Table& table);
 /// All of [[scheme]] on each arrangement of particles: uniform, jittered and, if particles move, moved.
 std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene);
 
+/// A list of positive numbers.
+std::vector<double> read_positive(const Table& table, std::string_view key, std::string_view example);
+
+/// A [[control]]: its name, and scheme = { model = 1, ... } of which it is a mistake.
+SchemeEntry read_control(const Table& table, const Scene& scene);
+
 /// [sweep]: N, ratios and, optionally, horizons, each below half the period.
 Sweep read_sweep(const Table& table, const Scene& scene);
 

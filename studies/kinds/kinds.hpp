@@ -19,6 +19,8 @@ void read_consistency(const Table& root, Study& study);
 void read_identities(const Table& root, Study& study);
 /// Exact max norms of a step. Lemmas 2.4 and 3.3.
 void read_stability(const Table& root, Study& study);
+/// Norm, growth and spectral radius of steps over CFL number and horizon, and the sharp limits. Lemmas 2.4 and 3.3.
+void read_stability_map(const Table& root, Study& study);
 /// Schemes, and schemes with a mistake, before every kind of check: which check notices which mistake.
 void read_controls(const Table& root, Study& study);
 /// Errors over the plane of horizon and spacing, against the local and the nonlocal solution: in which limits a scheme
@@ -45,6 +47,7 @@ inline constexpr std::array kinds = {
     Kind{"consistency", "truncation errors of the operators, no time stepping", read_consistency},
     Kind{"identities", "what the weights satisfy, exactly or within bounds", read_identities},
     Kind{"stability", "max norm of a forward Euler step", read_stability},
+    Kind{"stability-map", "where steps are stable, over CFL number and horizon", read_stability_map},
     Kind{"controls", "which check notices which deliberate mistake", read_controls},
     Kind{"map", "errors over the plane of horizon and spacing", read_map},
     Kind{"extremes", "expectation and observation at the ends of every range", read_extremes},

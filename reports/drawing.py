@@ -15,13 +15,14 @@ import look
 import map_figures
 import operator_figures
 import pollution_figures
+import stability_map_figures
 import stepping_figures
 from results import CONVERGENCE
 
 _OF_KIND = {"consistency": operator_figures.consistency_drawings, "identities": operator_figures.identity_drawings,
             "stability": operator_figures.stability_drawings, "controls": control_figures.drawings,
             "map": map_figures.drawings, "pollution": pollution_figures.drawings,
-            "coverage": coverage_figures.drawings}
+            "coverage": coverage_figures.drawings, "stability-map": stability_map_figures.drawings}
 
 
 class DrawingKilled(Exception):

@@ -33,9 +33,9 @@ def _limits(study):
         "delta/h, a panel per lemma and arrangement of the particles. Values: table below.",
         "Largest CFL number, by bisection, up to which no step grows beyond exp(CΔt) in the max norm. Black line: the "
         "condition that the lemma prints; it does not suffice where a limit lies below it. Pale: the condition that "
-        "the rows of the scheme need. Both marks at the edges are of the first integrator: triangles above, no limit up to "
-        f"{SEARCH_END:g}, where the search ends; crosses below, no step is stable, however short. Integrators without "
-        "any limit are left out."
+        "the rows of the scheme need. Marks at the edges are of the first integrator: triangles above, no limit up "
+        f"to {SEARCH_END:g}, where the search ends; crosses below, no step is stable, however short. Integrators "
+        "without any limit are left out."
         + (" Where velocities vary, exp(CΔt) is much for a long step: no limit means no more growth than that."
            if velocities_vary(study) else ""),
         tuple(ordered(found, lambda finding: finding.statement)))]

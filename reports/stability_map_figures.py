@@ -109,7 +109,12 @@ def map_figure(found, study, allowed):
                     axes.set_log_limits(panel, x_limits, y_limits, (width, tall))
                     panel.minorticks_off()      # they would take half of the drawing time
                     below = any((subject, other) in planes for other in integrators[i + 1:])
-                    panel.tick_params(direction="out", labelleft=k == 0, labelbottom=not below)
+                    panel.tick_params(direction="out")
+                    # The axes of all panels are the same: ticks at the outer ones are enough.
+                    if k > 0:
+                        panel.set_yticks([])
+                    if below:
+                        panel.set_xticks([])
                     if not below:
                         panel.set_xlabel(r"$\delta/h$", labelpad=1)
                     if k == 0:

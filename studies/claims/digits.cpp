@@ -160,12 +160,12 @@ void measure(Finding& finding, const std::vector<double>& ratios, Error&& error)
 }
 
 Finding finding_of(const WeightsChoice& choice, const std::string& statement, const std::string& claim,
-                   const std::string& quantity) {
+                   const std::string& what) {
   return {.statement = statement,
           .claim = claim,
           .subject = "kernel " + choice.kernel.label(),
-          .check = choice.model == 1 ? "Model I" : "Model II",
-          .quantity = quantity,
+          .check = what + (choice.model == 1 ? " of Model I" : " of Model II"),
+          .quantity = "max |value / exact - 1|",
           .test = Test::bounds,
           .variable = "delta/h",
           .promised = Verdict::holds,
@@ -176,10 +176,10 @@ Finding finding_of(const WeightsChoice& choice, const std::string& statement, co
 
 Finding round_off_of_weights(const WeightsChoice& choice, const std::vector<double>& ratios, CellForm form) {
   const bool factored = form == CellForm::factored;
-  Finding finding = finding_of(choice, factored ? "digits of weights" : "digits of weights, not factored",
-                               factored ? "cell integrals in factored form are exact to 1e-13"
-                                        : "differences of closed forms are exact to 1e-13",
-                               "max |W / exact - 1|");
+  Finding finding = finding_of(choice, factored ? "round-off" : "round-off, not factored",
+                               factored ? "weights from cell integrals in factored form are exact to 1e-13"
+                                        : "weights from differences of closed forms are exact to 1e-13",
+                               "weights");
   if (!factored) {
     finding.expected = Verdict::violated;
     finding.remark = "negative control: a narrow cell is the difference of two values that agree in most digits";
@@ -195,7 +195,7 @@ Finding round_off_of_weights(const WeightsChoice& choice, const std::vector<doub
 }
 
 Finding round_off_of_renormalization(const WeightsChoice& choice, const std::vector<double>& ratios) {
-  Finding finding = finding_of(choice, "digits of N_j", "N_j is exact to 1e-13", "max |N_j / exact - 1|");
+  Finding finding = finding_of(choice, "round-off", "N_j is exact to 1e-13", "N_j");
   finding.remark = "plain sums: all terms are positive, and 2e4 of them round off less than the bound by far";
   with_kernel(choice.kernel, [&]<class K>(const K& kernel) {
     if constexpr (IntegrableKernel<K>) {
@@ -211,11 +211,11 @@ Finding round_off_of_renormalization(const WeightsChoice& choice, const std::vec
 }
 
 Finding round_off_of_gaps(const Scene& scene, std::int64_t N, const std::vector<double>& times) {
-  Finding finding{.statement = "digits of gaps",
+  Finding finding{.statement = "round-off",
                   .claim = "gaps keep the digits that positions carry of them",
                   .subject = "flow of the scene",
-                  .check = fmt::format("N = {}", N),
-                  .quantity = "max |gap / exact - 1|",
+                  .check = fmt::format("gaps, N = {}", N),
+                  .quantity = "max |value / exact - 1|",
                   .test = Test::bounds,
                   .variable = "T",
                   .promised = Verdict::holds,

@@ -116,6 +116,11 @@ def _bounds(found):
     return [(finding.points.variable, finding.points.upper, None) for finding in found if _bounded(finding)]
 
 
+def drawable(finding):
+    """Whether any of its points can be drawn on logarithmic axes."""
+    return _curve(finding) is not None
+
+
 def _curve(finding):
     """(x, y, None), ascending in x, NaN where it cannot be drawn; None if nothing can."""
     x, y = finding.points.variable, finding.points.value

@@ -45,6 +45,21 @@ class Operators(FigureTest):
             for word in ("uniform", "jittered", "scheme one", "scheme two", "order 1"):
                 self.assertIn(f">{word}<", text)
 
+    def test_extremes_have_a_figure_where_something_has_an_order(self):
+        found = [finding(statement="T = 0", test="bounds", value=[0.0] * 4, upper=0.0),
+                 finding(statement="mass drift", subject="Model I, inverse", check="jittered, c = 1"),
+                 finding(statement="mass drift", subject="Model I, local divergence, inverse"),
+                 finding(statement="hat", subject="Model I, inverse", check="uniform, delta = h"),
+                 finding(statement="hat", subject="Model I, inverse", check="jittered, delta = h"),
+                 finding(statement="hat", subject="a wrong scheme", check="jittered, delta = h", verdict="below",
+                         expected="below", alarm=1)]
+        texts = self.texts("extremes", *found)
+        self.assertEqual(list(texts), ["extremes.mass-drift-jittered-particles", "extremes.mass-drift-moving-particles",
+                                       "extremes.hat"])
+        for word in ("uniform", "jittered", "Model I, inverse", "order 1"):
+            self.assertIn(f">{word}<", texts["extremes.hat"])
+        self.assertNotIn("a wrong scheme", texts["extremes.hat"])
+
     def test_what_cannot_be_drawn_leaves_no_figure_and_no_crash(self):
         for kind in ("consistency", "identities"):
             self.assertEqual(self.texts(kind, finding(**NOWHERE)), {})

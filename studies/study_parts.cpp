@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "studies/control_choice.hpp"
 #include "studies/theory.hpp"
 
 namespace acstudy {
@@ -57,9 +58,17 @@ std::shared_ptr<const Scene> read_scene_with_advection(const Table& table) {
   return scene;
 }
 
-namespace {
+int read_model(const Table& table) {
+  const toml::node& model = table.need("model", "model = 1");
+  const auto number = model.value_exact<std::int64_t>();
+  if (!number || (*number != 1 && *number != 2)) {
+    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
+  }
+  return static_cast<int>(*number);
+}
 
-KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model) {
+KernelChoice read_kernel(const Table& scheme, int model) {
+  const toml::node& node = scheme.need("kernel", "kernel = \"cubic-spline\"");
   static const toml::table no_table;
   const toml::table* const table = node.as_table();
   const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
@@ -103,24 +112,17 @@ KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model)
   return kernel;
 }
 
-}  // namespace
-
 SchemeChoice read_scheme(const Table& table, const Scene& scene) {
   table.allow({"model", "divergence", "kernel", "mu"});
   SchemeChoice scheme{};
-  const toml::node& model = table.need("model", "model = 1");
-  const auto number = model.value_exact<std::int64_t>();
-  if (!number || (*number != 1 && *number != 2)) {
-    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
-  }
-  scheme.model = static_cast<int>(*number);
+  scheme.model = read_model(table);
   const toml::node* const divergence = table.find("divergence");
   if (divergence != nullptr) {
     scheme.nonlocal_divergence = table.choice<bool>("divergence", *divergence, {{"local", false}, {"nonlocal", true}});
   } else if (!scene.standing()) {
     table.need("divergence", "divergence = \"local\"");
   }
-  scheme.kernel = read_kernel(table, table.need("kernel", "kernel = \"cubic-spline\""), scheme.model);
+  scheme.kernel = read_kernel(table, scheme.model);
   if (const toml::node* const mu = table.find("mu")) {
     if (scheme.model == 1) table.place(*mu).fail("Model I has no viscosity; leave mu out");
     scheme.mu = table.number("mu", *mu);
@@ -182,22 +184,47 @@ std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<cons
   return subjects;
 }
 
+std::vector<double> read_positive(const Table& table, std::string_view key, std::string_view example) {
+  std::vector<double> values;
+  for (const toml::node& item : table.list(key, example)) {
+    values.push_back(table.number(key, item));
+    if (!std::isfinite(values.back()) || values.back() <= 0.0) {
+      table.place(item).fail(fmt::format("{} contains {}; every entry must be positive and finite: write {}", key,
+                                         values.back(), example));
+    }
+  }
+  return values;
+}
+
+SchemeEntry read_control(const Table& table, const Scene& scene) {
+  const std::string name = table.text("name", "name = \"downwind\"");
+  const auto control = std::find_if(named_controls.begin(), named_controls.end(),
+                                    [&](const NamedControl& known) { return known.name == name; });
+  if (control == named_controls.end()) {
+    std::vector<std::string> known;
+    for (const NamedControl& one : named_controls) known.push_back("\"" + std::string(one.name) + "\"");
+    table.place(*table.find("name"))
+        .fail(fmt::format("name = \"{}\"; it must be one of {}", name, fmt::join(known, ", ")));
+  }
+  const Table scheme_table = table.sub_table("scheme");
+  SchemeChoice scheme = read_scheme(scheme_table, scene);
+  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model)) {
+    scheme_table.place().fail(fmt::format(
+        "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
+        name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
+  }
+  if (name == misprinted_trajectories && scene.text().b != "sin(x)") {
+    table.place().fail(fmt::format("{} are those of b = sin(x); use the scene \"lee-du-2019\"", name));
+  }
+  scheme.control = name;
+  return {scheme, scheme.model == 1 ? 0.0 : scheme.mu.value_or(scene.max_relative_velocity())};
+}
+
 Sweep read_sweep(const Table& table, const Scene& scene) {
   table.allow({"N", "ratios", "horizons"});
-  const auto lengths = [&](std::string_view key, std::string_view example) {
-    std::vector<double> values;
-    for (const toml::node& item : table.list(key, example)) {
-      values.push_back(table.number(key, item));
-      if (!std::isfinite(values.back()) || values.back() <= 0.0) {
-        table.place(item).fail(fmt::format("{} contains {}; every entry must be positive and finite: write {}", key,
-                                           values.back(), example));
-      }
-    }
-    return values;
-  };
-  Sweep sweep{read_levels(table), lengths("ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
+  Sweep sweep{read_levels(table), read_positive(table, "ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
   if (table.find("horizons") != nullptr) {
-    sweep.horizons = lengths("horizons", "horizons = [0.2]");
+    sweep.horizons = read_positive(table, "horizons", "horizons = [0.2]");
     for (const double delta : sweep.horizons) {
       check_horizon(scene, sweep.N.front(), delta, table.place(*table.find("horizons")));
     }

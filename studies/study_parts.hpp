@@ -19,6 +19,10 @@ std::shared_ptr<const Scene> read_scene(const Table& table);
 /// The same for studies of an operator, which is nothing where c - b is zero everywhere.
 std::shared_ptr<const Scene> read_scene_with_advection(const Table& table);
 
+/// Model and kernel of a [[scheme]], or of another table that has the two.
+int read_model(const Table& table);
+KernelChoice read_kernel(const Table& table, int model);
+
 /// A [[scheme]]; `standing` decides whether it needs a divergence form.
 SchemeChoice read_scheme(const Table& table, const Scene& scene);
 /// All of [[scheme]], each once, with the viscosity bound of each (0 for Model I).
@@ -33,6 +37,12 @@ std::vector<std::int64_t> read_levels(const Table& table);
 
 /// All of [[scheme]] on each arrangement of particles: uniform, jittered and, if particles move, moved.
 std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene);
+
+/// A list of positive numbers.
+std::vector<double> read_positive(const Table& table, std::string_view key, std::string_view example);
+
+/// A [[control]]: its name, and scheme = { model = 1, ... } of which it is a mistake.
+SchemeEntry read_control(const Table& table, const Scene& scene);
 
 /// [sweep]: N, ratios and, optionally, horizons, each below half the period.
 Sweep read_sweep(const Table& table, const Scene& scene);

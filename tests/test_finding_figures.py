@@ -69,6 +69,19 @@ class Operators(FigureTest):
         for kind in (*drawing._OF_KIND, "corpus", "a kind of tomorrow"):
             self.assertEqual(self.texts(kind, name="none"), {})
 
+    def test_digits_have_one_bound_and_pale_controls(self):
+        of = dict(test="bounds", variable_name="delta/h", quantity="max |value / exact - 1|", upper=1e-13)
+        found = [finding(check=check, statement=statement, subject=subject, **more, **of)
+                 for check in ("weights of Model I", "N_j of Model II") for subject in ("kernel one", "kernel two")
+                 for statement, more in (("round-off", {}), ("round-off, not factored", dict(expected="violated")))]
+        gaps = finding(statement="round-off", check="gaps, N = 10", **{**of, "variable_name": "T"})
+        text, = self.texts("digits", *found, gaps).values()
+        self.assertEqual(text.count(">bound<"), 2)
+        for word in ("weights of Model I", "N_j of Model II", "kernel one", "kernel two"):
+            self.assertIn(f">{word}<", text)
+        self.assertNotIn("gaps", text)
+        self.assertIn("opacity: 0.35", text)
+
     def test_departing_curves_are_marked(self):
         quiet, = self.texts("consistency", finding()).values()
         loud, = self.texts("consistency", finding(as_expected=0, verdict="below")).values()

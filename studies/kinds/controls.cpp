@@ -114,31 +114,6 @@ Finding alarms(const std::string& control, const std::string& subject, double co
   return finding;
 }
 
-/// scheme = { model = 1, ... } of a [[control]] that is a mistake of this scheme.
-SchemeEntry read_control(const Table& table, const Scene& scene) {
-  const std::string name = table.text("name", "name = \"downwind\"");
-  const auto control = std::find_if(named_controls.begin(), named_controls.end(),
-                                    [&](const NamedControl& known) { return known.name == name; });
-  if (control == named_controls.end()) {
-    std::vector<std::string> known;
-    for (const NamedControl& one : named_controls) known.push_back("\"" + std::string(one.name) + "\"");
-    table.place(*table.find("name"))
-        .fail(fmt::format("name = \"{}\"; it must be one of {}", name, fmt::join(known, ", ")));
-  }
-  const Table scheme_table = table.sub_table("scheme");
-  SchemeChoice scheme = read_scheme(scheme_table, scene);
-  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model)) {
-    scheme_table.place().fail(fmt::format(
-        "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
-        name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
-  }
-  if (name == misprinted_trajectories && scene.text().b != "sin(x)") {
-    table.place().fail(fmt::format("{} are those of b = sin(x); use the scene \"lee-du-2019\"", name));
-  }
-  scheme.control = name;
-  return {scheme, scheme.model == 1 ? 0.0 : scheme.mu.value_or(scene.max_relative_velocity())};
-}
-
 /// A path that all rows are put before.
 PathChoice read_column(const Table& table) {
   for (const char* const key : {"expect", "order"}) {

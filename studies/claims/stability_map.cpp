@@ -1,0 +1,368 @@
+#include "studies/claims/stability_map.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "studies/claims/stability.hpp"
+
+namespace acstudy {
+
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+/// Row sums and eigenvalues of some hundred terms, relative.
+constexpr double round_off = 1e-11;
+/// Where the stability function of SDIRK2 is absolutely monotone: its numerator 1 + (1 - 2 gamma) z >= 0.
+constexpr double sdirk2_radius = 1.0 / (1.0 - 2.0 * sdirk2_gamma);
+
+/// What the bounds on a subject's steps are made of.
+struct Constants {
+  double C;      ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant
+  double speed;  ///< max |c_hat|
+
+  explicit Constants(const Subject& subject) : speed(subject.scene->max_relative_velocity()) {
+    const FieldBounds fields = field_bounds(*subject.scene, 0.0);
+    C = fields.c_hat_1 + fields.b_1;
+  }
+};
+
+/// Model II: mu reach_j >= max|c_hat| |x_i - x_j| for all neighbors, so that no neighbor's coefficient is negative.
+bool viscosity_suffices(const Subject& subject, const PlacedScheme& placed, double speed) {
+  if (subject.scheme.model == 1) return true;
+  const Particles& particles = placed.particles();
+  for (std::ptrdiff_t j = 0; j < std::ssize(particles.x); ++j) {
+    const double* const x = particles.x.at(j);
+    const double farthest = std::max(x[0] - x[-particles.windows.left[j]], x[particles.windows.right[j]] - x[0]);
+    if (subject.mu * std::max(particles.delta, farthest) < speed * farthest * (1.0 - round_off)) return false;
+  }
+  return true;
+}
+
+/// A subject on particles that stand for a while: its rates, and the steps that the two conditions allow.
+struct Frozen {
+  SparseMatrix R;
+  double lemma;  ///< a CFL number of 1
+  double rows;   ///< what the rows need; 0 where no step is monotone
+
+  Frozen(const Subject& subject, const Constants& constants, const std::vector<double>& x, double delta) {
+    PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
+    R = sparse_rates(subject, placed);
+    const double smallest = gaps(x, subject.scene->period()).smallest;
+    lemma = smallest / (subject.scheme.model == 1 ? constants.speed : 2.0 * subject.mu);
+    const auto decay = [&] {
+      if (subject.scheme.control.empty()) return placed.scheme().strongest_decay();
+      // A control is stepped as the scheme that it is taken for.
+      SchemeChoice itself = subject.scheme;
+      itself.control.clear();
+      return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().strongest_decay();
+    };
+    rows = viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
+  }
+};
+
+/// Bound on the norm of a step, infinite where theory gives none.
+double step_bound(const Integrator& integrator, double dt, double rows, double C) {
+  if (rows == 0.0) return unbounded;
+  if (!integrator.implicit()) return dt <= rows * (1.0 + 1e-12) ? std::exp(C * dt) : unbounded;
+  if (integrator.stage_count() == 1) return C * dt < 1.0 ? 1.0 / (1.0 - C * dt) : unbounded;
+  return C == 0.0 && dt <= sdirk2_radius * rows * (1.0 + 1e-12) ? 1.0 : unbounded;
+}
+
+/// What step_bound says, in words.
+std::string step_claim(const Integrator& integrator) {
+  if (!integrator.implicit()) return "a step grows by no more than exp(C dt) within the condition of the rows";
+  if (integrator.stage_count() == 1)
+    return "a step grows by no more than 1/(1 - C dt), at any CFL number with C dt < 1";
+  return "a step does not grow up to 1 + sqrt(2) times the condition of the rows, where velocities are constant";
+}
+
+std::string lemma_of(const Subject& subject) { return subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3"; }
+
+Finding finding_on(const Subject& subject, const Integrator& integrator, const std::string& statement,
+                   const std::string& claim, const std::string& quantity) {
+  Finding finding = subject.finding(lemma_of(subject) + ", " + statement, claim, std::string(integrator.name), quantity,
+                                    Test::bounds);
+  if (!subject.scheme.control.empty()) {
+    finding.expected = Verdict::violated;
+    finding.remark = "negative control: unstable at any step";
+  }
+  return finding;
+}
+
+/// The product of all steps from the uniform start to T along the motion, at a CFL number; `seen(t, norm, bound)` after
+/// each step, with the bound on the norm of the product.
+template <class Seen>
+void product_along_motion(const Subject& subject, const Integrator& integrator, std::int64_t N, double delta,
+                          double cfl, Seen&& seen) {
+  const Scene& scene = *subject.scene;
+  const Constants constants(subject);
+  Trajectories trajectories(scene, uniform_positions(static_cast<std::size_t>(N), scene.period()));
+  std::optional<Frozen> now;
+  double now_at = -1.0;
+  const auto frozen_at = [&](double t) -> const Frozen& {
+    if (t != now_at) {
+      const auto x = trajectories.at(t);
+      now.emplace(subject, constants, std::vector<double>(x.begin(), x.end()), delta);
+      now_at = t;
+    }
+    return *now;
+  };
+  BoundedSteps steps(scene.T(), [&](double t) { return cfl * frozen_at(t).lemma; });
+  Eigen::MatrixXd product = Eigen::MatrixXd::Identity(N, N);
+  double bound = 1.0;
+  while (const auto step = steps.next()) {
+    double least_rows = unbounded;
+    const RatesAt rates = [&](double fraction) -> const SparseMatrix& {
+      const Frozen& frozen = frozen_at(step->at(fraction));
+      least_rows = std::min(least_rows, frozen.rows);
+      return frozen.R;
+    };
+    take_step(integrator, rates, step->dt, product);
+    bound *= step_bound(integrator, step->dt, least_rows, constants.C);
+    const double norm = max_norm(product);
+    seen(step->end, norm, std::min(bound, largest_norm) * (1.0 + round_off));
+    if (norm == largest_norm) return;
+  }
+}
+
+/// The worst of the arrangement's particles: `measure(frozen)` returns value and bound.
+template <class Take>
+Point worst_of(const Subject& subject, const Constants& constants, std::int64_t N, double delta, Take&& take) {
+  const double h = subject.scene->period() / static_cast<double>(N);
+  Point worst{.N = N, .h = h, .delta = delta, .value = NAN};
+  for (const std::vector<double>& x : subject.positions(N)) {
+    const auto [value, bound] = take(Frozen(subject, constants, x, delta));
+    if (std::isnan(worst.value) || value / bound > worst.value / worst.upper ||
+        (std::isinf(bound) && value > worst.value)) {
+      worst.value = value;
+      worst.upper = bound;
+    }
+  }
+  return worst;
+}
+
+struct Measured {
+  double value, bound;
+};
+
+/// Measures steps on frozen particles; eigenvalues are computed once for all steps.
+class FrozenMeter {
+ public:
+  FrozenMeter(const Integrator& integrator, const Frozen& frozen, Measure measure)
+      : integrator_(integrator), frozen_(frozen), measure_(measure) {
+    if (measure == Measure::spectral) eigenvalues_ = Eigen::MatrixXd(frozen.R).eigenvalues();
+  }
+  double operator()(double dt) const {
+    if (measure_ == Measure::spectral) return spectral_radius(integrator_, eigenvalues_, dt);
+    return max_norm(step_operator(integrator_, frozen_.R, dt));
+  }
+
+ private:
+  const Integrator& integrator_;
+  const Frozen& frozen_;
+  Measure measure_;
+  Eigen::VectorXcd eigenvalues_;
+};
+
+/// Whether theory says that no entry of a step is negative; see smallest_entry. For SDIRK2 it does where a step is the
+/// absolutely monotone function of a matrix that forward Euler keeps positive.
+bool entries_are_promised(const Subject& subject, const Integrator& integrator, const Frozen& frozen, double C,
+                          double dt) {
+  const double radius = integrator.implicit() ? sdirk2_radius : 1.0;
+  const bool within = dt <= radius * frozen.rows * (1.0 + 1e-12);
+  const bool any_step = integrator.name == "backward-euler";
+  if (subject.scheme.model == 1) return any_step || within;
+  return any_step ? C * dt < 1.0 && frozen.rows > 0.0 : within && C == 0.0;
+}
+
+}  // namespace
+
+const char* quantity_of(Measure measure) {
+  switch (measure) {
+    case Measure::norm:
+      return "max norm of a step";
+    case Measure::spectral:
+      return "spectral radius of a step";
+    case Measure::growth:
+      return "max norm of all steps to T";
+  }
+  return "";
+}
+
+Finding stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid,
+                      Measure measure) {
+  const Constants constants(subject);
+  const double C = constants.C, T = subject.scene->T();
+  Finding finding = finding_on(subject, integrator, "map", step_claim(integrator), quantity_of(measure));
+  finding.variable = "CFL number";
+  const bool moving = measure == Measure::growth && subject.arrangement == Arrangement::moved;
+  for (const double ratio : grid.ratios) {
+    const double delta = ratio * subject.scene->period() / static_cast<double>(grid.N);
+    for (const double cfl : grid.cfl) {
+      Point point;
+      if (moving) {
+        point = {.N = grid.N, .h = delta / ratio, .delta = delta};
+        product_along_motion(subject, integrator, grid.N, delta, cfl, [&](double, double norm, double bound) {
+          point.value = norm;
+          point.upper = bound;
+        });
+      } else {
+        point = worst_of(subject, constants, grid.N, delta, [&](const Frozen& frozen) -> Measured {
+          const double dt = cfl * frozen.lemma, bound = step_bound(integrator, dt, frozen.rows, C);
+          if (measure != Measure::growth)
+            return {FrozenMeter(integrator, frozen, measure)(dt), bound * (1.0 + round_off)};
+          const std::int64_t n = steps_for(T, dt);
+          const double equal = T / static_cast<double>(n);
+          const double total = std::pow(step_bound(integrator, equal, frozen.rows, C), static_cast<double>(n));
+          return {norm_of_power(step_operator(integrator, frozen.R, equal), n), total * (1.0 + 1e-9)};
+        });
+      }
+      point.variable = cfl;
+      finding.points.push_back(point);
+    }
+  }
+  judge(finding);
+  return finding;
+}
+
+Finding sharp_limit(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid, Measure measure,
+                    double highest) {
+  const Constants constants(subject);
+  const double C = constants.C;
+  const bool exact = C == 0.0 && measure == Measure::norm && integrator.name == "forward-euler" &&
+                     subject.arrangement == Arrangement::uniform && subject.scheme.control.empty();
+  const bool second = subject.scheme.model == 2;
+  Finding finding = finding_on(
+      subject, integrator, measure == Measure::norm ? "sharp in the max norm" : "sharp in the spectral radius",
+      !exact   ? "stable as far as the rows need, at least"
+      : second ? "monotone exactly up to dt mu (reach/N_j) sum_k W_k/(x_i - x_j) = 1, if mu reach >= |c| |x_i - x_j|"
+               : "monotone exactly up to c dt sum_k W_k = 1",
+      measure == Measure::norm ? "largest CFL number, max norm" : "largest CFL number, spectral radius");
+  finding.variable = "delta/h";
+  for (const double ratio : grid.ratios) {
+    const double delta = ratio * subject.scene->period() / static_cast<double>(grid.N);
+    Point worst{.N = grid.N, .h = delta / ratio, .delta = delta, .variable = ratio, .value = NAN};
+    for (const std::vector<double>& x : subject.positions(grid.N)) {
+      const Frozen frozen(subject, constants, x, delta);
+      const FrozenMeter meter(integrator, frozen, measure);
+      const auto stable = [&](double cfl) {
+        const double dt = cfl * frozen.lemma;
+        // Backward Euler may grow by 1/(1 - C dt), more than exp(C dt); beyond C dt = 1 nothing is promised.
+        const double bound =
+            integrator.name == "backward-euler" ? (C * dt < 1.0 ? 1.0 / (1.0 - C * dt) : unbounded) : std::exp(C * dt);
+        return meter(dt) <= bound * (1.0 + round_off);
+      };
+      // The first CFL number that is not stable, by doubling; then between it and the last stable one.
+      double low = 1e-3, high = low;
+      if (!stable(low)) {
+        low = 0.0;
+      } else {
+        while (high < highest && stable(high = std::min(1.25 * high, highest))) low = high;
+        while (low < highest && high - low > 1e-9 * low) {
+          const double middle = 0.5 * (low + high);
+          (stable(middle) ? low : high) = middle;
+        }
+      }
+      const double needed = frozen.rows / frozen.lemma;
+      double least = 0.0;
+      if (!integrator.implicit()) least = needed;
+      if (integrator.name == "backward-euler" && needed > 0.0) least = highest;
+      if (integrator.name == "sdirk2" && C == 0.0) least = std::min(sdirk2_radius * needed, highest);
+      if (std::isnan(worst.value) || low - least < worst.value - worst.lower) {
+        worst.value = low;
+        worst.lower = least * (1.0 - 1e-6);
+        if (exact) worst.upper = least * (1.0 + 1e-6);
+      }
+    }
+    finding.points.push_back(worst);
+  }
+  judge(finding);
+  return finding;
+}
+
+Finding growth_curve(const Subject& subject, const Integrator& integrator, std::int64_t N, double ratio, double cfl) {
+  const Constants constants(subject);
+  Finding finding =
+      finding_on(subject, integrator, "growth curve", step_claim(integrator), "max norm of all steps to t");
+  finding.check += fmt::format(", delta = {:g}h, CFL {:g}", ratio, cfl);
+  finding.variable = "t";
+  const double h = subject.scene->period() / static_cast<double>(N), delta = ratio * h;
+  const auto seen = [&](double t, double norm, double bound) {
+    finding.points.push_back({.N = N, .h = h, .delta = delta, .variable = t, .value = norm, .upper = bound});
+  };
+  if (!subject.scene->standing()) {
+    product_along_motion(subject, integrator, N, delta, cfl, seen);
+  } else {
+    const Frozen frozen(subject, constants, subject.positions(N).front(), delta);
+    const std::int64_t n = steps_for(subject.scene->T(), cfl * frozen.lemma);
+    const double dt = subject.scene->T() / static_cast<double>(n);
+    const double step = step_bound(integrator, dt, frozen.rows, constants.C);
+    const Eigen::MatrixXd S = step_operator(integrator, frozen.R, dt);
+    Eigen::MatrixXd product = S;
+    for (std::int64_t i = 1; i <= n && max_norm(product) < largest_norm; ++i) {
+      const double t = static_cast<double>(i) * dt;
+      seen(t, max_norm(product), std::pow(step, static_cast<double>(i)) * (1.0 + 1e-9));
+      product = (S * product).eval();
+    }
+  }
+  // Beyond the condition a control has nothing to violate.
+  const auto bounded = [](const Point& point) { return point.upper < largest_norm; };
+  if (std::none_of(finding.points.begin(), finding.points.end(), bounded)) finding.expected = finding.promised;
+  judge(finding);
+  return finding;
+}
+
+Finding smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid) {
+  const Scene& scene = *subject.scene;
+  const Constants constants(subject);
+  const double C = constants.C;
+  const std::vector<double> x = uniform_positions(4096, scene.period());
+  std::vector<double> c_hat(x.size()), b(x.size(), 0.0);
+  scene.c(x, c_hat);
+  if (!scene.standing()) scene.b(x, b);
+  for (std::size_t j = 0; j < x.size(); ++j) c_hat[j] -= b[j];
+  const auto [lowest, highest] = std::minmax_element(c_hat.begin(), c_hat.end());
+  // Of Model I with velocities of both signs positivity is demanded all the same, and expected to fail.
+  const bool one_sign = scene.standing() && (*lowest > 0.0 || *highest < 0.0);
+
+  Finding finding = finding_on(subject, integrator, "positivity",
+                               integrator.implicit() ? "an M-matrix: no entry of a step is negative, at any CFL number"
+                                                     : "no entry of a step is negative within the condition",
+                               "smallest entry of a step");
+  finding.variable = "CFL number";
+  if (subject.scheme.model == 1 && !one_sign) {
+    finding.expected = Verdict::violated;
+    finding.remark =
+        scene.standing()
+            ? "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; "
+              "their entries are negative at any step"
+            : "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; "
+              "their entries are negative at any step, on moving particles too";
+  }
+  for (const double ratio : grid.ratios) {
+    const double delta = ratio * scene.period() / static_cast<double>(grid.N);
+    for (const double cfl : grid.cfl) {
+      Point worst{.N = grid.N, .h = delta / ratio, .delta = delta, .variable = cfl, .value = unbounded};
+      for (const std::vector<double>& positions : subject.positions(grid.N)) {
+        const Frozen frozen(subject, constants, positions, delta);
+        const double dt = cfl * frozen.lemma;
+        const double value = step_operator(integrator, frozen.R, dt).minCoeff();
+        const bool promised = entries_are_promised(subject, integrator, frozen, C, dt);
+        if (value < worst.value) {
+          worst.value = value;
+          worst.lower = promised ? -round_off : -unbounded;
+        }
+      }
+      finding.points.push_back(worst);
+    }
+  }
+  judge(finding);
+  return finding;
+}
+
+}  // namespace acstudy

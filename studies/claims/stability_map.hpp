@@ -1,0 +1,58 @@
+#pragma once
+
+/// @file
+/// Where steps are stable: norm, growth and spectral radius over CFL number and horizon, and the sharp limits.
+
+#include <string>
+#include <vector>
+
+#include "studies/claims/step_operator.hpp"
+
+namespace acstudy {
+
+/// What maps are made over. A CFL number is dt over the bound of the lemma: dt max|c_hat| / h_min (2.4), 2 dt mu /
+/// h_min (3.3).
+struct StabilityGrid {
+  std::int64_t N;
+  std::vector<double> ratios;  ///< delta / h
+  std::vector<double> cfl;
+};
+
+/// What a map shows.
+enum class Measure {
+  norm,      ///< max norm of one step
+  spectral,  ///< spectral radius of one step
+  growth,    ///< max norm of the product of all steps to T: of the real ones where particles move
+};
+
+const char* quantity_of(Measure measure);
+
+/// Values of a measure at each horizon and CFL number. Bounded where theory bounds it, with C = ||c_hat'|| + ||b'||: by
+/// exp(C dt) a step of an explicit integrator, if it keeps to what the rows need; by 1/(1 - C dt) one of backward
+/// Euler, at any CFL number with C dt < 1; by one a step of SDIRK2 up to 1 + sqrt(2) times what the rows need, where C
+/// = 0.
+Finding stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid, Measure measure);
+
+/// The largest CFL number, found by bisection, up to which norm or spectral radius of a step keep to exp(C dt), or for
+/// implicit integrators to one over exp(-C dt), at each horizon. At least what the rows need; exactly that for forward
+/// Euler on uniform standing particles at constant velocity, where the condition
+///
+///     Model I    c dt sum_k W_k <= 1
+///     Model II   dt mu (reach/N_j) sum_k W_k/(x_i - x_j) <= 1   and   mu reach >= |c| |x_i - x_j| for all neighbors
+///
+/// is necessary as well. If the second part fails, no step is monotone.
+/// @param highest  CFL number at which the search ends: the limit is this if it is not below
+Finding sharp_limit(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid, Measure measure,
+                    double highest = 1000.0);
+
+/// max |S_n ... S_1| against t at one CFL number and delta = ratio h.
+Finding growth_curve(const Subject& subject, const Integrator& integrator, std::int64_t N, double ratio, double cfl);
+
+/// Smallest entry of a step at each CFL number and horizon: not negative where theory says so.
+///
+/// Backward Euler: I - dt R is an M-matrix at any step where c_hat keeps its sign on standing particles (Model I), or
+/// while C dt < 1 (Model II). Forward Euler: within what the rows need, where c_hat keeps its sign on standing
+/// particles (Model I) or is constant (Model II).
+Finding smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid);
+
+}  // namespace acstudy

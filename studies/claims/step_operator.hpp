@@ -1,0 +1,45 @@
+#pragma once
+
+/// @file
+/// One step of an integrator as a matrix, and how it grows.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <complex>
+#include <functional>
+
+#include "solver/integrators.hpp"
+#include "studies/claims/subject.hpp"
+
+namespace acstudy {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// R with rate(u) = R u, of a scheme or of a control.
+SparseMatrix sparse_rates(const Subject& subject, PlacedScheme& placed);
+
+/// R at the time t^n + fraction dt of a stage.
+using RatesAt = std::function<const SparseMatrix&(double fraction)>;
+
+/// U <- S U, S being one step of length dt without source; U of shape [N, any]. The identity becomes S itself.
+void take_step(const Integrator& integrator, const RatesAt& rates, double dt, Eigen::MatrixXd& U);
+
+/// S of particles that do not move during the step: a polynomial or rational function of dt R, shape [N, N].
+Eigen::MatrixXd step_operator(const Integrator& integrator, const SparseMatrix& R, double dt);
+
+/// The function r with S = r(dt R): u^{n+1} = r(z) u^n for u' = lambda u, z = lambda dt.
+std::complex<double> stability_function(const Integrator& integrator, std::complex<double> z);
+
+/// Largest row sum of absolute values.
+double max_norm(const Eigen::MatrixXd& matrix);
+
+/// Norms beyond are given as this: how far beyond, nobody needs to know.
+inline constexpr double largest_norm = 1e300;
+
+/// max |S^n|, by repeated squaring.
+double norm_of_power(Eigen::MatrixXd S, std::int64_t n);
+
+/// Largest |r(dt lambda)| over the eigenvalues of R.
+double spectral_radius(const Integrator& integrator, const Eigen::VectorXcd& eigenvalues, double dt);
+
+}  // namespace acstudy

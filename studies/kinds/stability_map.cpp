@@ -1,0 +1,122 @@
+#include "studies/claims/stability_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studies/control_choice.hpp"
+#include "studies/kinds/kinds.hpp"
+#include "studies/study_parts.hpp"
+
+namespace acstudy {
+
+namespace {
+
+std::vector<const Integrator*> read_integrators(const Table& table) {
+  std::vector<std::pair<std::string, const Integrator*>> words;
+  for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
+  std::vector<const Integrator*> chosen;
+  for (const toml::node& item : table.list("integrators", "integrators = [\"forward-euler\", \"backward-euler\"]")) {
+    const Integrator* const integrator = table.choice<const Integrator*>("integrators", item, words);
+    if (std::find(chosen.begin(), chosen.end(), integrator) != chosen.end()) {
+      table.place(item).fail(fmt::format("\"{}\" a second time; leave it out", integrator->name));
+    }
+    chosen.push_back(integrator);
+  }
+  return chosen;
+}
+
+/// [stability-map] N, ratios and cfl.
+StabilityGrid read_grid(const Table& table, const Scene& scene) {
+  StabilityGrid grid{.N = table.whole("N", table.need("N", "N = 64"), 8, 1000),
+                     .ratios = read_positive(table, "ratios", "ratios = [0.5, 1, 4, 16]"),
+                     .cfl = read_positive(table, "cfl", "cfl = [0.5, 1, 2, 4]")};
+  for (const double ratio : grid.ratios) {
+    check_horizon(scene, grid.N, ratio * scene.period() / static_cast<double>(grid.N),
+                  table.place(*table.find("ratios")));
+  }
+  return grid;
+}
+
+/// [growth] ratio and cfl: the curves of growth in time.
+struct Curves {
+  double ratio;
+  std::vector<double> cfl;
+};
+Curves read_curves(const Table& table, const Scene& scene, std::int64_t N) {
+  table.allow({"ratio", "cfl"});
+  const toml::node& node = table.need("ratio", "ratio = 4");
+  const Curves curves{table.number("ratio", node), read_positive(table, "cfl", "cfl = [0.9, 1.5, 2]")};
+  check_horizon(scene, N, curves.ratio * scene.period() / static_cast<double>(N), table.place(node));
+  return curves;
+}
+
+}  // namespace
+
+void read_stability_map(const Table& root, Study& study) {
+  root.allow({"study", "scene", "scheme", "control", "stability-map", "growth"});
+  study.scene = read_scene_with_advection(root.sub_table("scene"));
+  const Scene& scene = *study.scene;
+  const Table table = root.sub_table("stability-map");
+  table.allow({"N", "ratios", "cfl", "integrators"});
+  const StabilityGrid grid = read_grid(table, scene);
+  const std::vector<const Integrator*> chosen = read_integrators(table);
+  std::vector<Subject> subjects = read_subjects(root, study.scene);
+  for (Subject& subject : subjects) {
+    subject.seeds = 1;
+    if (subject.mu == 0.0 && subject.scheme.model == 2) {
+      root.place().fail("a [[scheme]] with mu = 0 has no CFL number; give it a viscosity bound");
+    }
+  }
+  std::vector<Subject> controls;
+  if (root.find("control") != nullptr) {
+    for (const Table& control : root.array_of_tables("control")) {
+      control.allow({"name", "scheme"});
+      const SchemeEntry entry = read_control(control, scene);
+      controls.push_back({entry.scheme, entry.mu, study.scene, Arrangement::uniform, 1});
+    }
+  }
+
+  const auto measure = [&](const std::string& name, std::function<Finding()> take) {
+    study.measurements.push_back({name, [take = std::move(take)](const auto&) { return take(); }});
+  };
+  const auto name_of_measurement = [](const Subject& subject, const Integrator& integrator, const std::string& what) {
+    return fmt::format("{}; {}, {}: {}", scheme_label(subject.scheme, subject.scene->standing()),
+                       name_of(subject.arrangement), integrator.name, what);
+  };
+  const auto examine = [&](const Subject& subject, const Integrator& integrator) {
+    for (const Measure what : {Measure::norm, Measure::spectral, Measure::growth}) {
+      measure(name_of_measurement(subject, integrator, std::string("map, ") + quantity_of(what)),
+              [=, &integrator] { return stability_map(subject, integrator, grid, what); });
+    }
+    for (const Measure what : {Measure::norm, Measure::spectral}) {
+      measure(name_of_measurement(subject, integrator, std::string("sharp limit, ") + quantity_of(what)),
+              [=, &integrator] { return sharp_limit(subject, integrator, grid, what); });
+    }
+    if (subject.arrangement == Arrangement::uniform && subject.scheme.control.empty()) {
+      measure(name_of_measurement(subject, integrator, "smallest entry of a step"),
+              [=, &integrator] { return smallest_entry(subject, integrator, grid); });
+    }
+  };
+  for (const Subject& subject : subjects) {
+    for (const Integrator* const integrator : chosen) examine(subject, *integrator);
+  }
+  // Controls are unstable with forward Euler; other integrators make up for some of it.
+  for (const Subject& subject : controls) examine(subject, integrators[0]);
+
+  if (root.find("growth") == nullptr) return;
+  const Curves curves = read_curves(root.sub_table("growth"), scene, grid.N);
+  const auto draw = [&](const Subject& subject, const Integrator& integrator) {
+    for (const double cfl : curves.cfl) {
+      measure(name_of_measurement(subject, integrator, fmt::format("growth curve, CFL {:g}", cfl)),
+              [=, &integrator] { return growth_curve(subject, integrator, grid.N, curves.ratio, cfl); });
+    }
+  };
+  for (const Subject& subject : subjects) {
+    if (subject.arrangement != Arrangement::uniform) continue;
+    for (const Integrator* const integrator : chosen) draw(subject, *integrator);
+  }
+  for (const Subject& subject : controls) draw(subject, integrators[0]);
+}
+
+}  // namespace acstudy

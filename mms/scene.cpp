@@ -24,10 +24,14 @@ Expression compile(const char* field, const std::string& text, const std::vector
   }
 }
 
-double positive_constant(const char* field, const std::string& text) {
+enum class Zero { allowed, refused };
+
+double constant(const char* field, const std::string& text, Zero zero) {
   const double value = compile(field, text, {})({});
-  if (!std::isfinite(value) || value <= 0.0) {
-    throw SceneError(field, 0, fmt::format("{} = {:.6g}; it must be positive and finite", field, value));
+  if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && zero == Zero::refused)) {
+    throw SceneError(field, 0,
+                     fmt::format("{} = {:.6g}; it must be {} and finite", field, value,
+                                 zero == Zero::allowed ? "zero or positive" : "positive"));
   }
   return value;
 }
@@ -46,8 +50,8 @@ std::vector<double> samples(double period) {
 
 Scene::Scene(SceneText text)
     : text_(std::move(text)),
-      period_(positive_constant("period", text_.period)),
-      T_(positive_constant("T", text_.T)),
+      period_(constant("period", text_.period, Zero::refused)),
+      T_(constant("T", text_.T, Zero::allowed)),
       c_(compile("c", text_.c, {"x"})),
       u_(compile("u", text_.u, {"x", "t"})) {
   if (text_.b) {

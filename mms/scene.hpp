@@ -39,8 +39,8 @@ class SceneError : public std::runtime_error {
 /// Models ParticleVelocity: `c`, `b`, `b_prime` fill whole arrays.
 class Scene {
  public:
-  /// Compiles the texts and checks what they promise: finite values, period and T positive, fields periodic, the flow a
-  /// solution of x' = b(x) that starts at x.
+  /// Compiles the texts and checks what they promise: finite values, period positive, T not negative, fields periodic,
+  /// the flow a solution of x' = b(x) that starts at x, from 0 to T.
   /// @throws SceneError
   explicit Scene(SceneText text);
 

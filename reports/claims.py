@@ -67,11 +67,11 @@ def _row(statement, drawings):
     claims = "<br>".join(escape(claim) for claim in statement.claims)
     return (f'<tr{markup.departs_if(statement.departing)}>'
             f'<th scope="row"><a href="#{_anchor(statement)}">{escape(statement.name)}</a></th>'
-            f'<td class="said">{claims}</td><td class="said">{measured}</td><td class="said">{_worst(statement)}</td>'
+            f'<td class="said">{claims}</td><td class="said">{measured}</td><td class="said">{worst_observed(statement)}</td>'
             f"<td>{verdict}</td><td>{said}</td><td>{_figures(statement, drawings)}</td></tr>\n")
 
 
-def _worst(statement):
+def worst_observed(statement):
     """The extremes of what was observed where the statement has to hold: orders, and the value nearest its bound."""
     tested = statement.tested or statement.entries
     orders = sorted((entry for entry in tested if math.isfinite(entry.order)), key=lambda entry: entry.order)

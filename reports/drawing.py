@@ -16,6 +16,7 @@ import look
 import map_figures
 import operator_figures
 import pollution_figures
+import stepping_figures
 from results import CONVERGENCE
 
 _OF_KIND = {"consistency": operator_figures.consistency_drawings, "identities": operator_figures.identity_drawings,
@@ -32,7 +33,9 @@ def of_study(study, styles):
     """The drawings of a study, in the order of its page. `styles`: of the convergence studies' schemes."""
     if study.kind in _OF_KIND:
         return _OF_KIND[study.kind](study)
-    return figures.drawings(study, styles) if study.kind == CONVERGENCE else []
+    if study.kind != CONVERGENCE:
+        return []
+    return stepping_figures.drawings(study) if study.steps_in_several_ways else figures.drawings(study, styles)
 
 
 def of_all(studies, styles):

@@ -35,7 +35,8 @@ class Style:
 def scheme_styles(studies):
     """A style for every scheme of the studies, in order of appearance: a scheme looks the same in every figure."""
     styles, families = {}, []
-    for scheme in (series.scheme for study in studies if study.kind == CONVERGENCE for series in study.series):
+    for scheme in (series.scheme for study in studies if study.kind == CONVERGENCE for series in study.series
+                   if not series.stepping):
         if scheme in styles:
             continue
         family = (scheme.model, scheme.kernel, scheme.alpha, scheme.mu)
@@ -160,7 +161,7 @@ def cost_curves(studies):
     """Each series once, though several studies may have run it; of such doubles, the first with the most cases."""
     curves = {}
     for study in studies:
-        for series in study.series if study.kind == CONVERGENCE else ():
+        for series in study.series if study.kind == CONVERGENCE and not study.steps_in_several_ways else ():
             key = (series.scheme, series.path, series.delta_text, series.source, series.step_text,
                    series.integrator, astuple(study.scene))
             if key not in curves or len(series.cases) > len(curves[key][1].cases):

@@ -18,6 +18,7 @@ PAPER = ("(2.3)", "Remark 2.1", "Remark 2.2", "Lemma 2.3", "Lemma 2.4", "Lemma 2
          "Theorem 3.6", "Theorem 3.7")
 # Kinds of study that examine the checks and the verdicts themselves.
 OF_MEASUREMENT = ("controls", "corpus")
+STIFF = "Stiff scenes"
 OF_OPERATORS = ("consistency", "identities", "stability")
 # From best to worst, where each is as expected.
 _SEVERITY = ("holds", "confirmed", "pre-asymptotic", "floor", "inconclusive")
@@ -123,10 +124,13 @@ def _of_series(study, series):
     claim = (f"order {series.theory_order:g} in {series.theory_variable}" if series.theory_order else
              f"the error does not vanish: {limit}")
     source = f"{series.source} source, {study.scene.name or 'scene of ' + study.name}"
-    return Entry(study, statement, claim, names.full_name(series.scheme), f"{series.path}, {source}",
-                 order_text(series), series.observed_order, math.nan, series.verdict, series.expected,
-                 series.as_expected, series.expected not in ("confirmed", "pre-asymptotic"), False, False,
-                 series.reason, "")
+    check = ", ".join(filter(None, (series.path, series.stepping, source)))
+    order, control = series.observed_order, series.expected not in ("confirmed", "pre-asymptotic")
+    if series.expected in ("stable", "unstable"):
+        # No order is asked for: nothing of the theorems is tested.
+        statement, claim, order, control = STIFF, "the solution stays bounded", math.nan, series.expected == "unstable"
+    return Entry(study, statement, claim, names.full_name(series.scheme), check, order_text(series), order, math.nan,
+                 series.verdict, series.expected, series.as_expected, control, False, False, series.reason, "")
 
 
 def measured(finding):
@@ -140,6 +144,8 @@ def measured(finding):
     columns = points.value, points.lower, points.upper
     value, lower, upper = (f"{column[i]:.6g}".replace("-", "−") for column in columns)
     if math.isinf(points.lower[i]):
+        if value == upper != "0":
+            value, upper = (_beside(float(f"{points.upper[i]:.6g}"), one) for one in (points.value[i], points.upper[i]))
         return f"{value} ≤ {upper}" if points.value[i] <= points.upper[i] else f"{value} > {upper}"
     if math.isinf(points.upper[i]):
         return f"{value} ≥ {lower}" if points.value[i] >= points.lower[i] else f"{value} < {lower}"
@@ -149,6 +155,14 @@ def measured(finding):
         return f"|value − {middle:g}| = {deviation:.2g} {'≤' if deviation <= half else '>'} {half:.2g}"
     inside = points.lower[i] <= points.value[i] <= points.upper[i]
     return f"{value} {'in' if inside else 'outside'} [{lower}, {upper}]"
+
+
+def _beside(round_number, value):
+    """A value that differs from a round number by next to nothing: "1 + 2.2e−16"."""
+    if value == round_number or not math.isfinite(value):
+        return f"{round_number:.6g}"
+    sign = "+" if value > round_number else "−"
+    return f"{round_number:.6g} {sign} {abs(value - round_number):.2g}".replace("e-", "e−")
 
 
 def order_text(result):

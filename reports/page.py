@@ -4,10 +4,12 @@ from html import escape
 import math
 
 import claims
+import extremes_table
 import findings
 import markup
 import mutants
 import names
+import stepping_figures
 from results import CONVERGENCE
 
 TITLE = "Asymptotic compatibility: convergence studies"
@@ -52,7 +54,8 @@ def _summary(studies):
     judged = {"series": series, "findings": found}
     said = markup.outcome({noun: sum(not one.as_expected for one in group) for noun, group in judged.items()},
                    {noun: len(group) for noun, group in judged.items()})
-    rows = "".join(_summary_row(study, one, labels[one.scheme]) for study in studies if study.kind == CONVERGENCE
+    rows = "".join(_summary_row(study, one, labels[one.scheme]) for study in studies
+                   if study.kind == CONVERGENCE and not study.steps_in_several_ways
                    for labels in [_labels(study)] for one in study.series)
     columns = ("study", "scheme", "path", "theory's order", "observed order", "95 % interval",
                "by a power law alone", "verdict", "as expected")
@@ -61,6 +64,11 @@ def _summary(studies):
              "measured of it.</p>\n"]
     if rows or not found:
         parts.append(markup.table(columns, rows, "Claims and verdicts"))
+    stepped = [study for study in studies if study.steps_in_several_ways]
+    if stepped:
+        parts.append("<p>Run with several integrators and steps:</p>\n")
+        parts.append(markup.table(("study", "", "series", "blow up", "as expected"), "".join(map(_stepped_row, stepped)),
+                                  "Studies run with several integrators and steps"))
     if found:
         rows = "".join(_findings_row(study) for study in studies if study.kind != CONVERGENCE)
         parts.append("<p>Judged by findings:</p>\n")
@@ -77,6 +85,16 @@ def _findings_row(study):
             f'<td><a href="#{study.name}">{study.name}</a></td><th scope="row">{escape(study.title)}</th>'
             f'<td class="said">{escape(statements)}</td><td class="number">{len(study.findings)}</td>'
             f'<td class="number">{sum(finding.control for finding in study.findings)}</td><td>{said}</td></tr>\n')
+
+
+def _stepped_row(study):
+    departing = sum(not series.as_expected for series in study.series)
+    said = f"<strong>{departing} not</strong>" if departing else "all"
+    return (f'<tr{markup.departs_if(departing)}>'
+            f'<td><a href="#{study.name}">{study.name}</a></td><th scope="row">{escape(study.title)}</th>'
+            f'<td class="number">{len(study.series)}</td>'
+            f'<td class="number">{sum(series.verdict == "unstable" for series in study.series)}</td>'
+            f"<td>{said}</td></tr>\n")
 
 
 def _summary_row(study, series, label):
@@ -98,8 +116,11 @@ def _convergence(study, drawings):
     if not study.series:
         parts.append("<p>No series has been run.</p>\n")
     parts += [markup.figure(drawing) for drawing in drawings]
-    parts += [_series(series, labels[series.scheme]) for series in study.series]
-    return "".join(parts) + _origin(study)
+    every = [_series(series, labels[series.scheme]) for series in study.series]
+    if study.steps_in_several_ways:
+        parts.append(stepping_figures.table(study))
+        every = ["<details><summary>Every series</summary>\n", *every, "</details>\n"]
+    return "".join((*parts, *every)) + _origin(study)
 
 
 def _findings(study, drawings):
@@ -112,6 +133,8 @@ def _findings(study, drawings):
         parts.append(claims.entry_table(departing, f"{study.title}: not as expected"))
     if study.kind == "corpus":
         parts.append(claims.corpus_table(study))
+    elif study.kind == "extremes":
+        parts.append(extremes_table.html(study, every))
     elif every:
         parts.append(f"<details><summary>Every finding</summary>\n{claims.entry_table(every, study.title)}</details>\n")
     return "".join(parts) + _origin(study)

@@ -62,6 +62,13 @@ class Cases:
     work_pairs: np.ndarray
     work_weight_builds: np.ndarray
     work_quadrature_points: np.ndarray
+    bound_largest: np.ndarray       # longest explicit step over the bound of its lemma; 0, NaN: not bounded
+    bound_first_step: np.ndarray    # first step beyond the bound; 0, NaN: none
+    bound_first_time: np.ndarray
+    bound_first_place: np.ndarray   # left end of the smallest gap then
+    last_step: np.ndarray           # of a run that was given up: its last finite state
+    last_time: np.ndarray           # NaN: the run went to its end
+    last_place: np.ndarray          # position of the particle that gave it away
     pairwise: np.ndarray        # orders between neighboring levels, in the theory's variable
 
     def __len__(self):
@@ -77,6 +84,7 @@ class Series:
     delta_text: str
     step_text: str
     integrator: str
+    stepping: str       # integrator and rule of steps, where the study has several; else empty
     theory_variable: str
     theory_order: float
     theory_statement: str
@@ -164,6 +172,11 @@ class Study:
         """What the gate judges: the series of a convergence study, the findings of any other."""
         return self.series if self.kind == CONVERGENCE else self.findings
 
+    @property
+    def steps_in_several_ways(self):
+        """Whether its series compare integrators and steps, and not only schemes."""
+        return any(series.stepping for series in self.series)
+
 
 def read_study(path):
     """The study in the result file `path`; ResultError if the file is missing, damaged or of another format."""
@@ -225,6 +238,7 @@ def _series(group):
     cases = _cases(group)
     window = (int(_number(group, "observed_window_first", 1)), int(_number(group, "observed_window_last", len(cases))))
     return Series(scheme=scheme, window=window, as_expected=bool(_number(group, "as_expected")), cases=cases,
+                  stepping=_text(group, "stepping", ""),
                   **{name: _text(group, name) for name in texts},
                   **{name: _number(group, name) for name in numbers},
                   **{name: _number(group, f"observed_{stored}", math.nan) for name, stored in later.items()})
@@ -251,17 +265,23 @@ def _finding(group):
 
 def _cases(group):
     integers = {"N", "steps", "repeats", "work_pairs", "work_weight_builds", "work_quadrature_points"}
-    return Cases(**_columns(group, Cases, integers, between={"pairwise"}))
+    later = {name for name in Cases.__dataclass_fields__ if name.startswith(("bound_", "last_"))}
+    return Cases(**_columns(group, Cases, integers, between={"pairwise"}, later=later))
 
 
-def _columns(group, record, integers, between=frozenset(), without=frozenset()):
-    """The data sets named as the fields of `record`, all as long as N; one shorter those `between` two entries."""
+def _columns(group, record, integers, between=frozenset(), without=frozenset(), later=frozenset()):
+    """The data sets named as the fields of `record`, all as long as N; one shorter those `between` two entries.
+
+    Those that came `later` are NaN where a file of an older version lacks them.
+    """
     arrays = {}
     for name in (name for name in record.__dataclass_fields__ if name not in without):
         try:
             values = _values(group, name)
         except KeyError:
-            raise KeyError(f"{group.name}: no dataset {name}") from None
+            if name not in later:
+                raise KeyError(f"{group.name}: no dataset {name}") from None
+            values = np.full(len(arrays["N"]), math.nan)
         arrays[name] = values.astype(np.int64 if name in integers else float)
     n = len(arrays["N"])
     for name, values in arrays.items():

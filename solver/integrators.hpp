@@ -71,10 +71,11 @@ struct TimeStep {
   double at(double fraction) const { return fraction == 1.0 ? end : begin + fraction * dt; }
 };
 
-/// T in `count` equal steps, t^n = n T / count.
+/// T in `count` equal steps, t^n = n T / count.  T = 0 takes none.
 class EqualSteps {
  public:
-  EqualSteps(double T, std::int64_t count) : T_(T), dt_(T / static_cast<double>(count)), count_(count) {}
+  EqualSteps(double T, std::int64_t count)
+      : T_(T), dt_(count == 0 ? 0.0 : T / static_cast<double>(count)), count_(count) {}
   std::optional<TimeStep> next() {
     if (n_ == count_) return std::nullopt;
     const double begin = at(n_);

@@ -43,10 +43,10 @@ Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const 
     // Once NaN, it stays: no comparison with a NaN is true.
     if (std::isnan(error) || error > errors.linf) errors.linf = error;
     errors.l1 += width * error;
-    errors.l2 += width * error * error;
+    errors.l2 = std::hypot(errors.l2, std::sqrt(width) * error);  // a square of an error may overflow
   }
   errors.l1 /= scene.period();
-  errors.l2 = std::sqrt(errors.l2 / scene.period());
+  errors.l2 /= std::sqrt(scene.period());
   return errors;
 }
 

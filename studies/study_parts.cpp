@@ -410,7 +410,7 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
                                   h, N, scene.T() / bound));
   }
   c.steps = steps_for(scene.T(), bound);
-  c.dt = scene.T() / static_cast<double>(c.steps);
+  c.dt = c.steps == 0 ? 0.0 : scene.T() / static_cast<double>(c.steps);
   return c;
 }
 

@@ -99,6 +99,59 @@ class Ledger(ReportTest):
         self.assertEqual(findings.ledger(studies), ([], []))
 
 
+    def test_a_value_beside_a_round_bound_shows_by_how_much_it_differs(self):
+        def measured(value, upper):
+            return findings.measured(read(self.folder, kind="stability", findings=[
+                finding(N=(80,), test="bounds", value=[value], upper=upper)]).findings[0])
+
+        ulp = 2.0**-52
+        self.assertEqual(measured(1 + ulp, 1 + 10 * ulp), "1 + 2.2e−16 ≤ 1 + 2.2e−15")
+        self.assertEqual(measured(1 - ulp, 1 + 10 * ulp), "1 − 2.2e−16 ≤ 1 + 2.2e−15")
+        self.assertEqual(measured(1 + 10 * ulp, 1 + ulp), "1 + 2.2e−15 > 1 + 2.2e−16")
+        self.assertEqual(measured(1.0, 1 + ulp), "1 ≤ 1 + 2.2e−16")
+        self.assertEqual(measured(1.0, 1.0), "1 ≤ 1")
+        self.assertEqual(measured(0.0, 0.0), "0 ≤ 0")
+        self.assertEqual(measured(0.5, 1.0), "0.5 ≤ 1")
+
+
+class Extremes(ReportTest):
+    """The table of a study of kind "extremes": a row per expectation, all findings below it."""
+
+    ROW = dict(statement="N = 3 to 9", claim="norms are <1>", test="bounds", check="uniform", upper=1.0)
+
+    def table(self, *found):
+        html = page.html([read(self.folder, kind="extremes", findings=found, scene=False)], {})
+        table = html[html.index('aria-label="A study"'):]
+        return table[:table.index("</table>")], html
+
+    def test_a_row_has_the_worst_of_all_schemes_and_counts_its_controls(self):
+        table, html = self.table(
+            finding(subject="near", value=[0.1, 0.9, 0.2, 0.3], **self.ROW),
+            finding(subject="far", value=[0.1, 0.4, 0.2, 0.3], **self.ROW),
+            finding(subject="wrong", value=[2.0] * 4, verdict="violated", expected="violated", alarm=1, **self.ROW),
+            finding(subject="other", statement="N = 3 to 9", claim="order 1", value=[0.8, 0.4, 0.2, 0.1]))
+        self.assertEqual(table.count("<tr"), 3)
+        self.assertIn('rowspan="2"><a href="#ledger.N---3-to-9">N = 3 to 9</a>', table)
+        self.assertIn("norms are &lt;1&gt;", table)
+        self.assertIn("0.9 ≤ 1<br>", table)
+        self.assertNotIn("0.4 ≤ 1", table)
+        self.assertIn("2 findings on 2 subjects", table)
+        self.assertIn("<td>1 of 1 fail</td><td>all</td>", table)
+        self.assertIn("0.1 at N = 1280", table)
+        self.assertIn('<details id="ledger.N---3-to-9"><summary>', html)
+        for subject in ("near", "far", "wrong", "other"):
+            self.assertIn(f'<th scope="row">{subject}</th>', html)
+
+    def test_a_row_that_departs_stands_out_and_is_unfolded(self):
+        bad = finding(value=[2.0] * 4, verdict="violated", as_expected=0, alarm=1, **self.ROW)
+        caught = finding(subject="missed", value=[0.5] * 4, expected="violated", as_expected=0, **self.ROW)
+        table, html = self.table(bad, caught)
+        self.assertIn('<tr class="departs">', table)
+        self.assertIn('<span class="badge bad">violated</span>', table)
+        self.assertIn("<td>0 of 1 fail</td><td><strong>2 of 2 not</strong></td>", table)
+        self.assertIn('<details id="ledger.N---3-to-9" open>', html)
+
+
 class Pages(ReportTest):
     def html(self, *studies):
         return claims.html(studies, {})

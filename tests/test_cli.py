@@ -227,6 +227,16 @@ class Results(ProgramTest):
                 np.testing.assert_allclose(x, flow, rtol=0, atol=4e-15)
                 np.testing.assert_allclose(u_exact, np.cos(x - 1), rtol=0, atol=4e-15)
 
+    def test_a_scene_that_ends_where_it_starts_takes_no_step_and_has_no_error(self):
+        for changes in ((), (MODEL_II,), (('"h/4"', '"cfl"'),)):
+            with self.subTest(changes):
+                # No error has no order either.
+                done = self.run_study(edit(STUDY, (USE, USE + "\nT = 0"), *changes), "--fresh", expect=1)
+                self.assertIn("floor, expected confirmed: the finest error, 0, is round-off", done.stdout)
+                for case in self.result()["series"][0]["cases"]:
+                    self.assertEqual([case[key] for key in ("steps", "dt", "error_linf", "error_l1", "error_l2")],
+                                     [0] * 5)
+
     def test_inline_fields_give_the_errors_of_the_named_scene(self):
         def errors(text):
             self.run_study(text, "--fresh")

@@ -123,6 +123,15 @@ TEST_CASE("particles stand still where b is absent or zero") {
   }
 }
 
+TEST_CASE("a scene may end where it starts") {
+  SceneText still = paper();
+  still.T = "0";
+  const Scene scene(still);
+  CHECK(scene.T() == 0.0);
+  Trajectories trajectories(scene, {0.5, 1.0});
+  CHECK(trajectories.at(scene.T())[1] == 1.0);
+}
+
 TEST_CASE("every named scene is sound") {
   std::vector<std::string> names;
   for (const SceneText& text : named_scenes()) {
@@ -146,9 +155,11 @@ TEST_CASE("a scene that does not keep its promises is refused with field and rea
       {with("u", "cos(x) + (t > 0)"), "u", "unexpected \">\"; an expression has no conditions", 12},
       {with("c", "1/sin(x)"), "c", "c is inf at x = 0; it must be finite everywhere"},
       {with("u", "1/(t - 1)"), "u", "u is inf at x = 0; it must be finite everywhere"},
-      {with("T", "0"), "T", "T = 0; it must be positive and finite"},
-      {with("T", "-1"), "T", "T = -1; it must be positive and finite"},
-      {with("T", "1/0"), "T", "T = inf; it must be positive and finite"},
+      {with("T", "-1"), "T", "T = -1; it must be zero or positive and finite"},
+      {with("T", "1/0"), "T", "T = inf; it must be zero or positive and finite"},
+      {with("T", "0", with("u", "1/x")), "u", "u is inf at x = 0; it must be finite everywhere"},
+      {with("T", "0", with("flow", "x + t", with("b", "sin(x)"))), "flow",
+       "the flow does not follow b: its velocity differs from b by 2 at t = 0; leave it out to have it integrated"},
       {with("period", "-2*pi"), "period", "period = -6.28319; it must be positive and finite"},
       {with("flow", "x"), "flow", "a flow without b; particles stand still unless b is given"},
       {with("flow", "x + 1", with("b", "sin(x)")), "flow",

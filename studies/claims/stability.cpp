@@ -20,9 +20,10 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
 
 namespace {
 
-/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum, whose terms sum to about one.
-double norm_bound(const PlacedScheme& placed, double dt, double growth) {
-  const double terms = 2.0 * placed.particles().windows.widest + 8.0;
+/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum. The terms of Model I sum to about one, those of D in
+/// Model II to two, and those of A to no more.
+double norm_bound(const Subject& subject, const PlacedScheme& placed, double dt, double growth) {
+  const double terms = (subject.scheme.model == 2 ? 4.0 : 1.0) * (2.0 * placed.particles().windows.widest + 8.0);
   return 1.0 + dt * growth + terms * std::numeric_limits<double>::epsilon();
 }
 
@@ -52,7 +53,7 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
         PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
         PlacedScheme right(itself, *subject.scene, subject.mu, x, delta);
         const double dt = cfl * largest_step(subject, right, condition), norm = step_norm(placed, dt);
-        const double bound = norm_bound(placed, dt, growth);
+        const double bound = norm_bound(subject, placed, dt, growth);
         if (std::isnan(worst.upper) || worse(norm - bound, worst.value - worst.upper)) {
           worst.value = norm;
           worst.upper = bound;
@@ -89,7 +90,7 @@ Finding printed_condition_on_uneven_gaps(const Subject& subject, const std::vect
                               .delta = delta,
                               .variable = delta / h,
                               .value = step_norm(placed, dt),
-                              .upper = norm_bound(placed, dt, fields.c_hat_1 + fields.b_1)});
+                              .upper = norm_bound(subject, placed, dt, fields.c_hat_1 + fields.b_1)});
   }
   judge(finding);
   return finding;

@@ -24,6 +24,8 @@ void read_controls(const Table& root, Study& study);
 /// Errors over the plane of horizon and spacing, against the local and the nonlocal solution: in which limits a scheme
 /// converges, and to what. Theorems 2.6 - 2.8, 3.5 - 3.7.
 void read_map(const Table& root, Study& study);
+/// What is to be expected at the ends of every range, and what is measured there.
+void read_extremes(const Table& root, Study& study);
 /// What part of the finest errors of convergence studies is of the time step, of the source's quadrature, of round-off.
 void read_pollution(const Table& root, Study& study);
 /// What round-off makes of weights, renormalizations and gaps, against arithmetic of 50 digits.
@@ -47,6 +49,7 @@ inline constexpr std::array kinds = {
     Kind{"stability", "max norm of a forward Euler step", read_stability},
     Kind{"controls", "which check notices which deliberate mistake", read_controls},
     Kind{"map", "errors over the plane of horizon and spacing", read_map},
+    Kind{"extremes", "expectation and observation at the ends of every range", read_extremes},
     Kind{"pollution", "parts of the finest errors that are not of the scheme in space", read_pollution},
     Kind{"digits", "round-off of weights and renormalizations, against 50 digits", read_digits},
     Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},

@@ -42,6 +42,10 @@ void measure(Finding& finding, const Case& c, const Reruns& reruns, const Result
   const auto result = [&](std::size_t series) -> const CaseResult& { return results[series].results[0]; };
   const CaseResult& base = result(reruns.base);
   const double error = base.error_linf;
+  if (error == 0.0) {
+    finding.failure = "the error is zero, so it has no parts";
+    return;
+  }
   const auto add = [&](const std::string& label, double part, double most = HUGE_VAL) {
     finding.points.push_back(
         {.N = c.N, .h = c.h, .delta = c.delta, .value = part / error, .upper = most, .label = label});

@@ -1,0 +1,32 @@
+#include "studies/claims/extremes.hpp"
+
+#include "studies/kinds/kinds.hpp"
+#include "studies/study_parts.hpp"
+
+namespace acstudy {
+
+void read_extremes(const Table& root, Study& study) {
+  root.allow({"study", "scheme", "extremes"});
+  // Rows bring their own scenes, in some of which particles move: a scheme has to say how it writes the divergence.
+  const Scene moving(named_scenes().front());
+  Extremes extremes;
+  for (const SchemeEntry& entry : read_schemes(root, moving)) extremes.schemes.push_back(entry.scheme);
+  for (const Table& scheme : root.array_of_tables("scheme")) {
+    if (const toml::node* const mu = scheme.find("mu")) {
+      scheme.place(*mu).fail(
+          "every row of the table of extremes has its own viscosity bound, max |c - b|; leave mu out");
+    }
+  }
+  if (root.find("extremes") != nullptr) {
+    const Table table = root.sub_table("extremes");
+    table.allow({"N", "steps"});
+    const auto most = [&](std::string_view key, std::int64_t& value, std::int64_t least, std::int64_t largest) {
+      if (const toml::node* const node = table.find(key)) value = table.whole(key, *node, least, largest);
+    };
+    most("N", extremes.most_particles, 100, 10'000'000);
+    most("steps", extremes.most_steps, 100, 1'000'000'000);
+  }
+  study.measurements = extreme_rows(extremes);
+}
+
+}  // namespace acstudy

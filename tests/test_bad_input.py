@@ -16,9 +16,9 @@ SCHEME_TABLE = '[[scheme]]\nmodel = 1\ndivergence = "local"\nkernel = "inverse"\
 TIME_TABLE = '[time]\nintegrator = "forward-euler"\nstep = "h/4"\n'
 SWEEP = ('[study]\nname = "sweep"\nkind = "stability"\n\n[scene]\nuse = "lee-du-2019"\n\n' + SCHEME_TABLE +
          '\n[sweep]\nN = [40]\nratios = [1]\n')
-EXTREMES = '[study]\nname = "ends"\nkind = "extremes"\n\n' + SCHEME_TABLE
 DIGITS = ('[study]\nname = "digits"\nkind = "digits"\n\n[[weights]]\nmodel = 1\nkernel = "inverse"\n\n[digits]\n'
           'ratios = [1]\n\n[scene]\nuse = "lee-du-2019"\n\n[gaps]\nN = 10\ntimes = [1]\n')
+EXTREMES = '[study]\nname = "ends"\nkind = "extremes"\n\n' + SCHEME_TABLE
 PATH_TABLE = STUDY[STUDY.index("[[path]]"):]
 
 NAMES = "it may use h, N, pi, e and the usual functions"
@@ -297,21 +297,6 @@ STUDIES = {
                                       'unknown key "path" in the study; known keys: study, scene, scheme, sweep, '
                                       'printed'),
 
-    # Extremes
-    "scene in a study of extremes": (bad(("[study]", '[@scene]\nuse = "lee-du-2019"\n\n[study]'), of=EXTREMES),
-                                     'unknown key "scene" in the study; known keys: study, scheme, extremes'),
-    "viscosity bound in a study of extremes": (
-        bad(('model = 1\ndivergence = "local"\nkernel = "inverse"',
-             'model = 2\ndivergence = "local"\nkernel = "cubic-spline"\nmu = @2'), of=EXTREMES),
-        "every row of the table of extremes has its own viscosity bound, max |c - b|; leave mu out"),
-    "no divergence in a study of extremes": (
-        bad(('divergence = "local"\n', ""), ("[[scheme]]", "@[[scheme]]"),
-                                                 of=EXTREMES),
-        '[[scheme]] has no "divergence"; write, for example, divergence = "local"'),
-    "too few particles for a study of extremes": (EXTREMES + "\n[extremes]\nN = @3\n",
-                                                  "N = 3; it must be a whole number from 100 to 10000000"),
-    "unknown extreme": (EXTREMES + "\n[extremes]\n@alpha = 2\n",
-                        'unknown key "alpha" in [extremes]; known keys: N, steps'),
     # Digits
     "scheme in a study of weights": (bad(("[digits]", '[[@scheme]]\nmodel = 1\n\n[digits]'), of=DIGITS),
                                      'unknown key "scheme" in the study; known keys: study, weights, digits, scene, '
@@ -335,6 +320,22 @@ STUDIES = {
         bad(('[scene]\nuse = "lee-du-2019"', '@[scene]\nperiod = "2*pi"\nT = 1\nc = 1\nb = "cos(x)"\nu = "cos(x)"'),
             of=DIGITS),
         'the exact gaps are those of b = sin(x) on the period 2*pi; use the scene "lee-du-2019"'),
+
+    # Extremes
+    "scene in a study of extremes": (bad(("[study]", '[@scene]\nuse = "lee-du-2019"\n\n[study]'), of=EXTREMES),
+                                     'unknown key "scene" in the study; known keys: study, scheme, extremes'),
+    "viscosity bound in a study of extremes": (
+        bad(('model = 1\ndivergence = "local"\nkernel = "inverse"',
+             'model = 2\ndivergence = "local"\nkernel = "cubic-spline"\nmu = @2'), of=EXTREMES),
+        "every row of the table of extremes has its own viscosity bound, max |c - b|; leave mu out"),
+    "no divergence in a study of extremes": (
+        bad(('divergence = "local"\n', ""), ("[[scheme]]", "@[[scheme]]"),
+                                                 of=EXTREMES),
+        '[[scheme]] has no "divergence"; write, for example, divergence = "local"'),
+    "too few particles for a study of extremes": (EXTREMES + "\n[extremes]\nN = @3\n",
+                                                  "N = 3; it must be a whole number from 100 to 10000000"),
+    "unknown extreme": (EXTREMES + "\n[extremes]\n@alpha = 2\n",
+                        'unknown key "alpha" in [extremes]; known keys: N, steps'),
 
     # Scenes
     "zero period": (inline(('"2*pi"', "@0")), "period = 0; it must be positive and finite"),

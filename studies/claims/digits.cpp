@@ -120,7 +120,7 @@ double error_of_weights(int model, const K& kernel, const Side& at, CellForm for
   return largest;
 }
 
-/// sum_k d_k m_k over one side, by parts: with M(d_k) the integral up to neighbor k, m_k = M(d_k) - M(d_{k-1}).
+/// sum_k d_k m_k over one side.
 template <IntegrableKernel K>
 Exact exact_moment_of_side(const K& kernel, const Side& at) {
   Exact sum = 0, inner = 0;

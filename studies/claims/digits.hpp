@@ -29,7 +29,7 @@ inline constexpr double digits_bound = 1e-13;
 
 /// The largest relative error of W over delta/h. Positions are dyadic, so that gaps are exact: all equal, or between
 /// h/4 and 7h/4 with every seventh one 2^-20 h.
-/// @param ratios  delta/h, 0 < delta/h <= 1e5; 16 particles are examined at each, fewer from 100 on, one from 1000 on
+/// @param ratios  delta/h, 0 < delta/h <= 1e5; up to 16 particles are examined at each, one from 1000 on
 Finding round_off_of_weights(const WeightsChoice& choice, const std::vector<double>& ratios, CellForm form);
 
 /// The same of N_j.  @pre choice.model == 2

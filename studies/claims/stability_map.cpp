@@ -125,7 +125,7 @@ void product_along_motion(const Subject& subject, const Integrator& integrator, 
     take_step(integrator, rates, step->dt, product);
     bound *= step_bound(integrator, step->dt, least_rows, constants.C);
     const double norm = max_norm(product);
-    seen(step->end, norm, std::min(bound, largest_norm) * (1.0 + round_off));
+    seen(step->end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
     if (norm == largest_norm) return;
   }
 }

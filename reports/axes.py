@@ -92,7 +92,7 @@ def _set_ticks(axis, limits, most):
     few = high - low < 8
     minor = [m * 10.0 ** k for k in range(low, high + 1) for m in range(2, 10)] if few else []
     axis.set_major_locator(FixedLocator(ticks))
-    axis.set_major_formatter(FixedFormatter([_tick_text(tick, ticks) for tick in ticks]))
+    axis.set_major_formatter(FixedFormatter([tick_text(tick, ticks) for tick in ticks]))
     axis.set_minor_locator(FixedLocator([tick for tick in minor if limits[0] <= tick <= limits[1]]))
     axis.set_minor_formatter(NullFormatter())
 
@@ -116,7 +116,7 @@ def _ticks(low, high, most):
     return best
 
 
-def _tick_text(tick, ticks):
+def tick_text(tick, ticks):
     if min(ticks) >= 1e-4 and max(ticks) < 1e5:
         return f"{tick:.6g}"
     power = math.floor(math.log10(tick) + 1e-9)

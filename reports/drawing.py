@@ -17,6 +17,7 @@ import look
 import map_figures
 import operator_figures
 import pollution_figures
+import stability_map_figures
 import stepping_figures
 from results import CONVERGENCE
 
@@ -24,7 +25,7 @@ _OF_KIND = {"consistency": operator_figures.consistency_drawings, "identities": 
             "stability": operator_figures.stability_drawings, "controls": control_figures.drawings,
             "map": map_figures.drawings, "pollution": pollution_figures.drawings,
             "coverage": coverage_figures.drawings, "digits": digit_figures.drawings,
-            "extremes": extremes_figures.drawings}
+            "extremes": extremes_figures.drawings, "stability-map": stability_map_figures.drawings}
 
 
 class DrawingKilled(Exception):

@@ -99,7 +99,7 @@ def map_figure(study, planes):
         bar = figure.colorbar(ScalarMappable(norm, colors), cax=add_axes(
             figure, left + len(schemes) * (width + gap), foot, 0.16, height - spaces[0]), spacing="proportional")
         ticks = [level for level in levels if abs(math.log10(level) - round(math.log10(level))) < 1e-6] or levels[::3]
-        bar.set_ticks(ticks, labels=[axes._tick_text(tick, [1e-9]) for tick in ticks])
+        bar.set_ticks(ticks, labels=[axes.tick_text(tick, [1e-9]) for tick in ticks])
         bar.minorticks_off()
         bar.ax.set_yscale("log")
         bar.set_label("max-norm error at $T$")

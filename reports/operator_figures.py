@@ -36,19 +36,19 @@ def curves_figure(found, one_bound=False):
     """A panel per row and column of findings. `one_bound`: all have the same, and it is drawn once."""
     with typography():
         rows = list(dict.fromkeys(map(_row, found)))
-        columns = list(dict.fromkeys(map(_arrangement, found)))
-        styles = _styles(found)
+        columns = list(dict.fromkeys(map(arrangement, found)))
+        styles = subject_styles(found)
         tall = 1.9 if len(rows) <= 3 else 1.5
         width = min(4.0, (WIDTH - LEFT - RIGHT - (len(columns) - 1) * GAP) / len(columns))
         heads = [textwrap.fill(names.literal(f"{quantity}; {rest}" if rest else quantity), 120)
                  for quantity, rest, _ in rows]
-        above, below, foot = 0.35, 0.5, 0.15 + _legend_height(styles)
+        above, below, foot = 0.35, 0.5, 0.15 + legend_height(styles)
         spaces = [0.1 + 0.16 * (head.count("\n") + 1) for head in heads]
         figure = blank(above + sum(spaces) + len(rows) * (tall + below) + foot)
         top = figure.get_figheight() - above
         for row, head, space in zip(rows, heads, spaces):
             top -= space + tall
-            group = [[finding for finding in found if (_row(finding), _arrangement(finding)) == (row, column)]
+            group = [[finding for finding in found if (_row(finding), arrangement(finding)) == (row, column)]
                      for column in columns]
             curves = [[_curve(finding) for finding in cell] for cell in group]
             orders = [sorted({finding.theory_order for finding in cell if finding.test != "bounds"
@@ -82,7 +82,7 @@ def curves_figure(found, one_bound=False):
                 panel.minorticks_off()      # they would take half of the drawing time
                 axes.draw_references(panel, next(lines), (width, tall), GRAY)
                 panel.tick_params(which="both", top=True, right=True, labelleft=first)
-                panel.set_xlabel(_variable(cell[0].variable), labelpad=1)
+                panel.set_xlabel(variable_math(cell[0].variable), labelpad=1)
                 if first:
                     panel.annotate(head, (0, 1), xycoords="axes fraction", xytext=(0, 5), textcoords="offset points",
                                    ha="left", va="bottom", fontsize=10, color="black")
@@ -91,7 +91,7 @@ def curves_figure(found, one_bound=False):
                                    textcoords="offset points", ha="center", va="bottom", fontsize=12)
                 first = False
             top -= below
-        _subject_legend(figure, styles)
+        subject_legend(figure, styles)
         return figure
 
 
@@ -100,7 +100,7 @@ def drawable(finding):
     return _curve(finding) is not None
 
 
-def _arrangement(finding):
+def arrangement(finding):
     return finding.check.partition(", ")[0]
 
 
@@ -162,7 +162,7 @@ def dots_figure(found):
         groups = {}
         for finding in found:
             groups.setdefault((finding.statement, finding.quantity, finding.subject), []).append(finding)
-        arrangements = list(dict.fromkeys(map(_arrangement, found)))
+        arrangements = list(dict.fromkeys(map(arrangement, found)))
         floor, ceiling = -6.0, 1.0
         ratios = [ratio for ratio, _ in map(_relative, found) if ratio > 0 and math.isfinite(ratio)]
         if ratios:
@@ -212,7 +212,7 @@ def _dots(panel, found, arrangements, y, edge):
     panel.axhline(y, color="#EDF0F3", linewidth=0.6, zorder=0)
     for finding in found:
         ratio, _ = _relative(finding)
-        i = arrangements.index(_arrangement(finding))
+        i = arrangements.index(arrangement(finding))
         color = COLORS[i % len(COLORS)] if finding.as_expected else DEPARTING
         low, high = 10 ** edge, 10 ** panel.get_xlim()[1]
         panel.plot(math.log10(min(max(ratio, low), high)), y, linestyle="none",
@@ -260,22 +260,22 @@ def growth_figure(found):
     """A row per statement, a column per arrangement: (norm - 1) / (bound - 1) against delta/h."""
     with typography():
         rows = list(dict.fromkeys(finding.statement for finding in found))
-        columns = list(dict.fromkeys(map(_arrangement, found)))
-        styles = _styles(found)
+        columns = list(dict.fromkeys(map(arrangement, found)))
+        styles = subject_styles(found)
         width, tall = (WIDTH - LEFT - RIGHT - (len(columns) - 1) * GAP) / len(columns), 2.2
-        above, between, foot = 0.55, 0.42, 0.62 + _legend_height(styles)
+        above, between, foot = 0.55, 0.42, 0.62 + legend_height(styles)
         figure = blank(above + len(rows) * tall + (len(rows) - 1) * between + foot)
         curves = {id(finding): _growth(finding) for finding in found}
         values = np.concatenate([y[np.isfinite(y)] for _, y in curves.values()])
         x_all = np.concatenate([x for x, _ in curves.values()])
-        drawn = {(rows.index(finding.statement), columns.index(_arrangement(finding))) for finding in found}
+        drawn = {(rows.index(finding.statement), columns.index(arrangement(finding))) for finding in found}
         lowest = {(max(i for i, k in drawn if k == j), j) for j in range(len(columns))}
         high = max(2.0, values.max(initial=1.0))
         low = min(-0.1, max(-10.0, values.min(initial=0.0)))
         for i, row in enumerate(rows):
             bottom = figure.get_figheight() - above - (i + 1) * tall - i * between
             for j, column in enumerate(columns):
-                group = [one for one in found if (one.statement, _arrangement(one)) == (row, column)]
+                group = [one for one in found if (one.statement, arrangement(one)) == (row, column)]
                 if not group:
                     continue
                 panel = add_axes(figure, LEFT + j * (width + GAP), bottom, width, tall, xscale="log")
@@ -296,15 +296,15 @@ def growth_figure(found):
                         panel.plot(*curves[id(finding)], color=DEPARTING, linewidth=4, alpha=0.35, zorder=1)
                 panel.tick_params(which="both", top=True, right=True, labelleft=j == 0, labelbottom=(i, j) in lowest)
                 if (i, j) in lowest:
-                    panel.set_xlabel(_variable(found[0].variable))
-                if row == next(one.statement for one in found if _arrangement(one) == column):
+                    panel.set_xlabel(variable_math(found[0].variable))
+                if row == next(one.statement for one in found if arrangement(one) == column):
                     panel.annotate(column, (0.5, 1), xycoords="axes fraction", xytext=(0, 20),
                                    textcoords="offset points", ha="center", va="bottom", fontsize=12)
                 if j == 0:
                     panel.set_ylabel("growth / bound")
                     panel.annotate(names.literal(row), (0, 1), xycoords="axes fraction", xytext=(0, 5),
                                    textcoords="offset points", va="bottom", fontsize=11)
-        _subject_legend(figure, styles)
+        subject_legend(figure, styles)
         return figure
 
 
@@ -322,7 +322,7 @@ def _growth(finding):
 
 # ------------------------------------------------------------------------------------------------------------ shared
 
-def _styles(found):
+def subject_styles(found):
     """{subject: how its curves look}; open markers for the nonlocal divergence, as in every figure.
 
     Each is smaller than the one below it: curves of schemes that agree lie within one another.
@@ -337,20 +337,20 @@ def _styles(found):
     return styles
 
 
-def _legend_columns(styles):
+def legend_columns(styles):
     return 2 if max(map(len, styles)) > 38 else 3
 
 
-def _legend_height(styles):
-    return math.ceil(len(styles) / _legend_columns(styles)) * LINE * 1.5 + 0.1
+def legend_height(styles):
+    return math.ceil(len(styles) / legend_columns(styles)) * LINE * 1.5 + 0.1
 
 
-def _subject_legend(figure, styles):
+def subject_legend(figure, styles):
     figure.legend([Line2D([], [], **style) for style in styles.values()], map(names.literal, styles), loc="lower left",
-                  bbox_to_anchor=(LEFT / WIDTH, 0.1 / figure.get_figheight()), ncol=_legend_columns(styles),
+                  bbox_to_anchor=(LEFT / WIDTH, 0.1 / figure.get_figheight()), ncol=legend_columns(styles),
                   columnspacing=2.0, **LEGEND)
 
 
-def _variable(name):
+def variable_math(name):
     formulas = {"delta": r"$\delta$", "delta/h": r"$\delta/h$", "h/delta": r"$h/\delta$"}
     return formulas.get(name) or names.variable_math(name)

@@ -9,6 +9,7 @@ import findings
 import markup
 import mutants
 import names
+import stability_map_table
 import stepping_figures
 from results import CONVERGENCE
 
@@ -133,6 +134,8 @@ def _findings(study, drawings):
     parts += [markup.figure(drawing) for drawing in drawings]
     if departing and study.kind != "corpus":
         parts.append(claims.entry_table(departing, f"{study.title}: not as expected"))
+    if study.kind == "stability-map":
+        parts.append(stability_map_table.html(study))
     if study.kind == "corpus":
         parts.append(claims.corpus_table(study))
     elif study.kind == "extremes":

@@ -298,7 +298,7 @@ class Figures(ReportTest):
                 ticks = axes._ticks(low, high, 5)
                 self.assertTrue(2 <= len(ticks) <= 5, ticks)
                 self.assertTrue(all(low <= tick <= high for tick in ticks))
-                self.assertEqual(len({axes._tick_text(tick, ticks) for tick in ticks}), len(ticks))
+                self.assertEqual(len({axes.tick_text(tick, ticks) for tick in ticks}), len(ticks))
 
     def test_paths_are_set_as_formulas_where_they_are_some(self):
         for path, written in (("delta = 4h", r"$\delta=4h$"), ("delta = sqrt(h)", r"$\delta=\sqrt{h}$"),

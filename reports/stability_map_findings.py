@@ -1,0 +1,70 @@
+"""Findings of stability maps, taken apart: of which measurement, scheme, particles and integrator each is."""
+
+import math
+
+import numpy as np
+
+GROWTH, NORM, SPECTRAL = "max norm of all steps to T", "sharp in the max norm", "sharp in the spectral radius"
+SEARCH_END = 1000.0     # CFL number at which the bisection for a limit ends: a limit of it is none
+CAPPED = 1e299          # norms and bounds are capped at 1e300
+WITHIN = 1 + 1e-6       # round-off of a product of many steps
+
+
+def parts(finding):
+    """(arrangement of the particles, integrator, what else the check says)."""
+    arrangement, _, rest = finding.check.partition(", ")
+    integrator, _, rest = rest.partition(", ")
+    return arrangement, integrator, rest
+
+
+def lemma(finding):
+    return finding.statement.partition(", ")[0]
+
+
+def of_kind(study, kind):
+    """The findings of a statement such as "Lemma 2.4, map", whatever the lemma."""
+    return [finding for finding in study.findings
+            if finding.statement.partition(", ")[2] == kind and len(finding.points)]
+
+
+def lemma_suffices(finding):
+    """Whether the sharp limit lies nowhere below a CFL number of 1; it is known to 1e-6."""
+    return bool(np.all(finding.points.value >= 1 - 1e-6))
+
+
+def plane(finding):
+    """(delta/h [m], CFL number [n], value [n, m]), ascending; NaN where there is no value."""
+    points = finding.points
+    found = {(float(f"{delta / h:.6g}"), float(f"{cfl:.6g}")): value for delta, h, cfl, value
+             in zip(points.delta, points.h, points.variable, points.value) if delta > 0 and h > 0 and cfl > 0}
+    ratios, cfl = (np.array(sorted({key[i] for key in found})) for i in (0, 1))
+    return ratios, cfl, np.array([[found.get((x, y), math.nan) for x in ratios] for y in cfl])
+
+
+def allowed_growth(found):
+    """exp(CT): the least of the bounds on growth over T, which an explicit step within its condition has; 1 without."""
+    bounds = [finding.points.upper[finding.points.upper < CAPPED] for finding in found]
+    return max(1.0, min((bound.min() for bound in bounds if len(bound)), default=1.0))
+
+
+def promised_throughout(finding):
+    """Whether theory promises that there is no limit: of backward Euler."""
+    return bool(np.any(finding.points.lower >= 0.99 * SEARCH_END))
+
+
+def velocities_vary(study):
+    """Whether theory allows any growth, C > 0: a step of backward Euler is then held to no bound once C dt >= 1."""
+    return any(np.any((finding.points.upper > WITHIN) & (finding.points.upper < CAPPED))
+               for finding in of_kind(study, "map"))
+
+
+def ordered(found, part):
+    return list(dict.fromkeys(map(part, found)))
+
+
+def subject_of(finding):
+    return finding.subject
+
+
+def integrator_of(finding):
+    return parts(finding)[1]

@@ -1,0 +1,93 @@
+"""The table of a stability map: sharp limits beside the bound that the lemma prints and what the rows need."""
+
+from html import escape
+
+import numpy as np
+
+import markup
+from stability_map_findings import (NORM, SEARCH_END, SPECTRAL, lemma, lemma_suffices, of_kind, parts,
+                                    promised_throughout, velocities_vary)
+
+COLUMNS = ("scheme", "particles", "integrator", "printed bound", "rows' bound", "sharp limit, max norm",
+           "sharp limit, spectral radius", "verdict", "as expected")
+
+
+def html(study):
+    """A row per scheme, arrangement of the particles and integrator; "" for a study without limits."""
+    limits = {}
+    for kind in (NORM, SPECTRAL):
+        for finding in of_kind(study, kind):
+            arrangement, integrator, _ = parts(finding)
+            limits.setdefault((finding.subject, arrangement, integrator), {})[kind] = finding
+    if not limits:
+        return ""
+    vary = velocities_vary(study)
+    rows = "".join(_row(key, found, vary) for key, found in limits.items())
+    return _about(vary) + markup.table(COLUMNS, rows, f"{study.title}: sharp limits")
+
+
+def _about(vary):
+    said = ("CFL numbers: Δ<var>t</var> over the longest step that the lemma prints. The rows' bound, which is "
+            "sufficient, is the least over <var>δ</var>/<var>h</var>; limits are the least and the largest over "
+            "<var>δ</var>/<var>h</var>, by bisection, of the CFL numbers up to which no step grows beyond "
+            "exp(<var>C</var>Δ<var>t</var>). Exact: theory says that the rows' bound is the limit, and it is, to 1e−6. "
+            f"The search ends at {SEARCH_END:g}.")
+    if vary:
+        said += (" Backward Euler is held to 1/(1 − <var>C</var>Δ<var>t</var>) instead, and to nothing once "
+                 "<var>C</var>Δ<var>t</var> ≥ 1.")
+    return f"<p>{said}</p>\n"
+
+
+def _row(key, found, vary):
+    subject, arrangement, integrator = key
+    either = list(found.values())
+    judged = next((one for one in either if not one.as_expected), either[0])
+    bounds = "".join(f"<td>{cell}</td>" for cell in (
+        _printed(found.get(NORM), vary), _rows_bound(either[0], vary), *(_limit(found.get(kind), vary)
+                                                                       for kind in (NORM, SPECTRAL))))
+    return (f'<tr{markup.departs(judged)}><th scope="row">{escape(subject)}</th><td>{escape(arrangement)}</td>'
+            f"<td>{escape(integrator)}</td>{bounds}<td>{markup.badge(judged, judged.control)}</td>"
+            f"<td>{markup.expected(judged)}</td></tr>\n")
+
+
+def _printed(finding, vary):
+    """Whether what the lemma prints is enough for the norm; not said of a control, nor where no limit is asked for."""
+    if finding is None or finding.control or (vary and promised_throughout(finding)):
+        return "1"
+    if lemma_suffices(finding):
+        return f'1 <span class="note">{escape(lemma(finding))} suffices</span>'
+    return f'1 <strong class="warning">{escape(lemma(finding))} does not suffice</strong>'
+
+
+def _rows_bound(finding, vary):
+    lower = finding.points.lower
+    least = np.min(lower) if len(lower) else np.nan
+    if promised_throughout(finding) and least >= 0.99 * SEARCH_END:
+        return _none(finding, vary)
+    if np.isnan(least) or np.isneginf(least):
+        return "–"
+    exact = ' <span class="note">exact</span>' if np.all(np.isfinite(finding.points.upper)) else ""
+    return markup.value(least) + exact if least > 0 else "none promised"
+
+
+def _limit(finding, vary):
+    """ "1.2 – 4.7", the extremes in words where they are no numbers."""
+    if finding is None:
+        return "–"
+    values = finding.points.value
+    if np.isnan(values).any():
+        return '<strong class="warning">nan</strong>'
+    ends = [_said(finding, value, vary) for value in (values.min(), values.max())]
+    return " – ".join(dict.fromkeys(ends))
+
+
+def _said(finding, value, vary):
+    if value >= SEARCH_END:
+        return _none(finding, vary)
+    return markup.value(value) if value > 0 else "0: no step is stable"
+
+
+def _none(finding, vary):
+    if vary and promised_throughout(finding):
+        return "none while <var>C</var>Δ<var>t</var> &lt; 1"
+    return f"none up to {SEARCH_END:g}"

@@ -32,8 +32,8 @@ def _limits(study):
         "Log-log plots of the largest CFL number at which no step grows in the max norm beyond its bound against "
         "delta/h, a panel per lemma and arrangement of the particles. Values: table below.",
         "Largest CFL number, by bisection, up to which no step grows beyond exp(CΔt) in the max norm. Black line: the "
-        "condition that the lemma prints; below it the lemma promises too much. Pale: the condition that the rows of "
-        "the scheme need. Both marks at the edges are of the first integrator: triangles above, no limit up to "
+        "condition that the lemma prints; it does not suffice where a limit lies below it. Pale: the condition that "
+        "the rows of the scheme need. Both marks at the edges are of the first integrator: triangles above, no limit up to "
         f"{SEARCH_END:g}, where the search ends; crosses below, no step is stable, however short. Integrators without "
         "any limit are left out."
         + (" Where velocities vary, exp(CΔt) is much for a long step: no limit means no more growth than that."
@@ -64,7 +64,8 @@ def limits_figure(found):
         drawn = [one.points.value[(one.points.value > 0) & (one.points.value < SEARCH_END)] for one in found]
         low, high = axes.padded(np.concatenate([*drawn, [0.8, 2.0]]), 0.1)
         # Room at the upper edge for the marks of what has no limit.
-        unlimited = ordered([one for one in found if np.any(one.points.value >= SEARCH_END)], subject_of)
+        unlimited = ordered([one for one in found if integrator_of(one) == integrators[0]
+                             and np.any(one.points.value >= SEARCH_END)], subject_of)
         high *= (high / low) ** (0.05 * min(4, len(unlimited)))
         for i, row in enumerate(rows):
             bottom = figure.get_figheight() - above - (i + 1) * tall - i * between
@@ -74,7 +75,8 @@ def limits_figure(found):
                     continue
                 panel = add_axes(figure, left + k * (width + gap), bottom, width, tall, xscale="log", yscale="log")
                 panel.axhline(1.0, zorder=1, **_PRINTED)
-                unlimited = ordered([one for one in group if np.any(one.points.value >= SEARCH_END)], subject_of)
+                unlimited = ordered([one for one in group if integrator_of(one) == integrators[0]
+                                     and np.any(one.points.value >= SEARCH_END)], subject_of)
                 for finding in group:
                     turn = unlimited.index(finding.subject) if finding.subject in unlimited else 0
                     i_of = integrators.index(integrator_of(finding))
@@ -150,9 +152,8 @@ def growth_figure(found):
         x_limits = 0.0, max(one.points.variable.max() for one in found)
 
         def draw(panel, group):
-            for finding in group:
-                t, upper = finding.points.variable, finding.points.upper
-                panel.plot(t, np.where(upper < CAPPED, upper, np.nan), zorder=1, **_ALLOWED)
+            for t, upper in _allowed(group):
+                panel.plot(t, upper, zorder=1, **_ALLOWED)
             for finding in group:
                 i, k = integrators.index(integrator_of(finding)), cfl.index(_cfl(finding))
                 t, value = finding.points.variable, finding.points.value
@@ -178,6 +179,21 @@ def growth_figure(found):
 
 
 _ALLOWED = dict(color="#C4C9CE", linewidth=3.2, solid_capstyle="butt")
+
+
+def _allowed(group):
+    """The finite bounds (t, bound), but none that is constant and shorter than another of the same height."""
+    bounds = {}
+    for finding in group:
+        t, upper = finding.points.variable, finding.points.upper
+        if not np.any(upper < CAPPED):
+            continue
+        curve = t, np.where(upper < CAPPED, upper, np.nan)
+        constant = np.all(upper < CAPPED) and upper.max() < upper.min() * (1 + 1e-6)
+        key = f"{upper[0]:.6g}" if constant else id(finding)
+        if key not in bounds or np.ptp(t) > np.ptp(bounds[key][0]):
+            bounds[key] = curve
+    return bounds.values()
 
 
 def _cfl(finding):
@@ -237,8 +253,9 @@ def positivity_figure(found):
                 panel.plot(x, y, **(style | {"marker": None}))
                 for share, fill in ((promised == 1, "full"), ((promised > 0) & (promised < 1), "left"),
                                     (promised == 0, "none")):
-                    panel.plot(x[share], y[share], **(style | {"linestyle": "none", "fillstyle": fill,
-                                                               "markerfacecoloralt": "white"}))
+                    if share.any():
+                        panel.plot(x[share], y[share], **(style | {"linestyle": "none", "fillstyle": fill,
+                                                                   "markerfacecoloralt": "white"}))
                 if not finding.as_expected:
                     panel.plot(x, y, color=DEPARTING, linewidth=5, alpha=0.35, zorder=1)
 

@@ -58,6 +58,9 @@ def _map_drawing(study, found, arrangement, allowed, part):
     until = "T" if study.scene is None else f"T = {study.scene.T:g}"
     relative = f", over exp(CT) = {allowed:.3g}, which theory allows" if allowed > WITHIN else ""
     left_out = (f" Not drawn, for they keep to what is allowed everywhere: {', '.join(quiet)}." if quiet else "")
+    taken_for = ", for a control that of the scheme that it is taken for" if any(one.control for one in drawn) else ""
+    held = ("; beyond 1/(1 − CΔt) for backward Euler, of which nothing is asked once CΔt ≥ 1" if velocities_vary(study)
+            else "")
     return Drawing(
         ".".join(filter(None, (study.name, part))), ": ".join((study.title, " and ".join(lemmas))),
         map_figure(drawn, study, allowed),
@@ -65,10 +68,10 @@ def _map_drawing(study, found, arrangement, allowed, part):
         f"scheme and integrator, with the bound of {' and '.join(lemmas)} and the sharp limits. Values: table below.",
         f"Color: max norm of all steps to {until} on {arrangement} particles{relative}; a cell per measured value. Far "
         f"above the limits T holds but a few steps, in which little can grow.{left_out} Lines: the CFL number that the "
-        "lemma prints, the condition that the rows of the scheme need (for SDIRK2 what follows from it; none where "
-        "theory promises nothing), and the largest CFL numbers, by bisection, at which no single step grows beyond "
-        "exp(CΔt), in the max norm and in the spectral radius. A line that leaves a panel above goes to a value there, "
-        "or to none.",
+        "lemma prints, the condition that the rows of the scheme need (for SDIRK2 what follows from it"
+        f"{taken_for}; none where theory promises nothing), and the largest CFL numbers, by bisection, at which no "
+        f"single step grows beyond exp(CΔt), in the max norm and in the spectral radius{held}. A line that leaves a "
+        "panel above goes to a value there, or to none.",
         tuple(f"{one}, {kind}" for one in lemmas for kind in ("map", NORM, SPECTRAL)))
 
 

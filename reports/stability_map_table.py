@@ -23,15 +23,17 @@ def html(study):
         return ""
     vary = velocities_vary(study)
     rows = "".join(_row(key, found, vary) for key, found in limits.items())
-    return _about(vary) + markup.table(COLUMNS, rows, f"{study.title}: sharp limits")
+    exact = any(_exact(finding) for found in limits.values() for finding in found.values())
+    return _about(vary, exact) + markup.table(COLUMNS, rows, f"{study.title}: sharp limits")
 
 
-def _about(vary):
+def _about(vary, exact):
     said = ("CFL numbers: Δ<var>t</var> over the longest step that the lemma prints. The rows' bound, which is "
             "sufficient, is the least over <var>δ</var>/<var>h</var>; limits are the least and the largest over "
             "<var>δ</var>/<var>h</var>, by bisection, of the CFL numbers up to which no step grows beyond "
-            "exp(<var>C</var>Δ<var>t</var>). Exact: theory says that the rows' bound is the limit, and it is, to 1e−6. "
-            f"The search ends at {SEARCH_END:g}.")
+            f"exp(<var>C</var>Δ<var>t</var>). The search ends at {SEARCH_END:g}.")
+    if exact:
+        said += " Exact: theory says that the rows' bound is the limit, and the bisection agrees to 1e−6."
     if vary:
         said += (" Backward Euler is held to 1/(1 − <var>C</var>Δ<var>t</var>) instead, and to nothing once "
                  "<var>C</var>Δ<var>t</var> ≥ 1.")
@@ -66,8 +68,16 @@ def _rows_bound(finding, vary):
         return _none(finding, vary)
     if np.isnan(least) or np.isneginf(least):
         return "–"
-    exact = ' <span class="note">exact</span>' if np.all(np.isfinite(finding.points.upper)) else ""
-    return markup.value(least) + exact if least > 0 else "none promised"
+    if least <= 0:
+        return "none promised"
+    note = "exact" if _exact(finding) else "of the scheme that it is taken for" if finding.control else ""
+    return markup.value(least) + (f' <span class="note">{note}</span>' if note else "")
+
+
+def _exact(finding):
+    """Whether theory names the limit from both sides and it lies there."""
+    points = finding.points
+    return bool(np.all(np.isfinite(points.upper) & (points.lower <= points.value) & (points.value <= points.upper)))
 
 
 def _limit(finding, vary):

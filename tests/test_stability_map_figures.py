@@ -116,7 +116,8 @@ class Maps(StabilityMapTest):
 
     def test_what_theory_allows_is_the_least_of_its_bounds(self):
         bounds = np.array([12.0, 12.0, 1e300, math.inf] * 3)
-        allowed = stability_map_findings.allowed_growth(self.study(growth_map(upper=bounds)).findings)
+        wider = growth_map(upper=15.0), growth_map(upper=np.where(bounds < 100, bounds + np.arange(12), bounds))
+        allowed = stability_map_findings.allowed_growth(self.study(*wider).findings)
         self.assertEqual(allowed, 12.0)
         self.assertEqual(stability_map_findings.allowed_growth(self.study(growth_map()).findings), 1.0)
 
@@ -225,6 +226,16 @@ class Curves(StabilityMapTest):
         self.assertIn("δ = 2.5h", one.caption)
         self.assertTrue(first.get_ylim()[1] < 1e10)
 
+    def test_constant_bounds_are_drawn_once(self):
+        def bounds(*uppers):
+            found = [curve(cfl, (1.0, 1.0, 1.0), upper=np.array(upper)) for cfl, upper in enumerate(uppers)]
+            return [list(y) for _, y in curves(self.drawings(*found)["growth"].figure.axes[0], color="#C4C9CE")]
+
+        self.assertEqual(bounds([1.0] * 3, [1.0] * 3), [[1.0] * 3])
+        self.assertEqual(bounds([1.0] * 3, [2.0] * 3), [[1.0] * 3, [2.0] * 3])
+        self.assertEqual(bounds([1.0, 2.0, 4.0], [1.0, 2.0, 5.0]), [[1.0, 2.0, 4.0], [1.0, 2.0, 5.0]])
+        self.assertEqual(bounds([math.inf] * 3), [])
+
     def test_positivity_is_the_worst_over_the_horizons_and_says_where_it_is_promised(self):
         lower = np.array([-1e-11, -1e-11, -math.inf, -math.inf] + 2 * [-1e-11, -1e-11, -1e-11, -math.inf])
         one = positivity([[0.1, 0.0, -1.0, -3.0], [0.0, 0.2, 0.0, -2.0], [0.3] * 4], lower=lower)
@@ -285,6 +296,7 @@ class Table(StabilityMapTest):
         self.assertEqual(cells((1000.0, 0.0, 0.0), (1.3,) * 3, expected="violated", verdict="violated")[::2],
                          ["1", "0: no step is stable – none up to 1000"])
         self.assertEqual(cells((1.0, 1.0, 1.0), (1.0,) * 3, upper=1.000001)[1], "1 exact")
+        self.assertEqual(cells((1.0, 1.0, 1.1), (1.0,) * 3, upper=1.000001, as_expected=0)[1], "1")
 
     def test_what_departs_in_either_limit_is_marked(self):
         self.assertNotIn('class="departs"', stability_map_table.html(self.study(limit(), limit("spectral radius"))))

@@ -10,6 +10,8 @@ import signal
 
 import control_figures
 import coverage_figures
+import digit_figures
+import extremes_figures
 import figures
 import look
 import map_figures
@@ -22,7 +24,8 @@ from results import CONVERGENCE
 _OF_KIND = {"consistency": operator_figures.consistency_drawings, "identities": operator_figures.identity_drawings,
             "stability": operator_figures.stability_drawings, "controls": control_figures.drawings,
             "map": map_figures.drawings, "pollution": pollution_figures.drawings,
-            "coverage": coverage_figures.drawings, "stability-map": stability_map_figures.drawings}
+            "coverage": coverage_figures.drawings, "digits": digit_figures.drawings,
+            "extremes": extremes_figures.drawings, "stability-map": stability_map_figures.drawings}
 
 
 class DrawingKilled(Exception):

@@ -9,22 +9,29 @@ import markup
 COLUMNS = ("extreme", "expectation", "worst observed", "verdict", "negative controls", "as expected")
 
 
-def html(study, entries):
-    """The table, a row per expectation, and below it every finding of each extreme, folded away.
+def table(study, entries):
+    """A row per expectation, each extreme with a link to its findings.
 
     `entries`: findings.entries(study), one per finding of the study, in its order.
     """
-    if not entries:
-        return ""
     of = {id(entry): finding for entry, finding in zip(entries, study.findings)}
+    rows = "".join(_row(study, extreme, claim, group, of, len(expectations) if i == 0 else 0)
+                   for extreme, expectations in _extremes(entries).items()
+                   for i, (claim, group) in enumerate(expectations.items()))
+    return markup.table(COLUMNS, rows, study.title) if rows else ""
+
+
+def every_finding(study, entries):
+    """All of each extreme, folded away unless something departs."""
+    return "".join(_fold(study, extreme, expectations) for extreme, expectations in _extremes(entries).items())
+
+
+def _extremes(entries):
+    """{extreme: {expectation: its entries}}."""
     extremes = {}
     for entry in entries:
         extremes.setdefault(entry.statement, {}).setdefault(entry.claim, []).append(entry)
-    rows = "".join(_row(study, extreme, claim, group, of, len(expectations) if i == 0 else 0)
-                   for extreme, expectations in extremes.items()
-                   for i, (claim, group) in enumerate(expectations.items()))
-    folds = "".join(_fold(study, extreme, expectations) for extreme, expectations in extremes.items())
-    return markup.table(COLUMNS, rows, study.title) + folds
+    return extremes
 
 
 def _row(study, extreme, claim, group, of, span):

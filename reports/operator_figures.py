@@ -32,7 +32,8 @@ def consistency_drawings(study):
     return drawings
 
 
-def curves_figure(found):
+def curves_figure(found, one_bound=False):
+    """A panel per row and column of findings. `one_bound`: all have the same, and it is drawn once."""
     with typography():
         rows = list(dict.fromkeys(map(_row, found)))
         columns = list(dict.fromkeys(map(arrangement, found)))
@@ -67,7 +68,12 @@ def curves_figure(found):
                     panel.plot(x, y, **style, alpha=0.35 if finding.control else 1.0)
                     if not finding.as_expected:
                         panel.plot(x, y, color=DEPARTING, linewidth=4, alpha=0.35, zorder=1)
-                for (x, y, _), finding in zip(_bounds(cell), (one for one in cell if _bounded(one))):
+                if one_bound:
+                    x, y, _ = _bounds(cell)[0]
+                    panel.plot(x, y, color=GRAY, linewidth=0.9, linestyle=(0, (5, 3)))
+                    panel.annotate("bound", (x[0], y[0]), xytext=(0, 3), textcoords="offset points", color=GRAY,
+                                   fontsize=10)
+                for (x, y, _), finding in zip(_bounds([] if one_bound else cell), filter(_bounded, cell)):
                     # In turn, so that bounds that agree show all of their colors.
                     turn = list(styles).index(finding.subject)
                     panel.plot(x, y, color=styles[finding.subject]["color"], linewidth=0.9,
@@ -89,6 +95,11 @@ def curves_figure(found):
         return figure
 
 
+def drawable(finding):
+    """Whether a finding has values that can be drawn over its variable."""
+    return _curve(finding) is not None
+
+
 def arrangement(finding):
     return finding.check.partition(", ")[0]
 
@@ -103,6 +114,11 @@ def _bounded(finding):
 
 def _bounds(found):
     return [(finding.points.variable, finding.points.upper, None) for finding in found if _bounded(finding)]
+
+
+def drawable(finding):
+    """Whether any of its points can be drawn on logarithmic axes."""
+    return _curve(finding) is not None
 
 
 def _curve(finding):

@@ -129,6 +129,8 @@ def _findings(study, drawings):
     every = findings.entries(study)
     departing = [entry for entry in every if not entry.as_expected]
     parts = [_heading(study), markup.outcome({"findings": len(departing)}, {"findings": len(every)})]
+    if study.kind == "extremes":
+        parts.append(extremes_table.table(study, every))
     parts += [markup.figure(drawing) for drawing in drawings]
     if departing and study.kind != "corpus":
         parts.append(claims.entry_table(departing, f"{study.title}: not as expected"))
@@ -137,7 +139,7 @@ def _findings(study, drawings):
     if study.kind == "corpus":
         parts.append(claims.corpus_table(study))
     elif study.kind == "extremes":
-        parts.append(extremes_table.html(study, every))
+        parts.append(extremes_table.every_finding(study, every))
     elif every:
         parts.append(f"<details><summary>Every finding</summary>\n{claims.entry_table(every, study.title)}</details>\n")
     return "".join(parts) + _origin(study)

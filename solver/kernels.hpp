@@ -18,14 +18,14 @@ namespace acstudy {
 /// antisymmetric kernel of Model II is w^delta(z) = sign(z) eta^delta(|z|)/2. With the first moment normalized to one,
 /// (2.3) and its twin for w^delta both hold.
 ///
-/// | expression            | meaning                                                                                 |
-/// |-----------------------|-----------------------------------------------------------------------------------------|
-/// | `k.eta(z)`            | eta(z) >= 0, 0 < z < 1                                                                   |
-/// | `k.first_moment(z)`   | int_0^z r eta(r) dr, nondecreasing, 0 at z = 0 and 1 at z = 1                            |
-/// | `k.first_moment(cell)`| int r eta(r) dr over the cell, >= 0, to a few units in the last place however narrow it is
-/// | | `k.origin_exponent()` | a < 2 such that z^a eta(z) is smooth up to z = 0 | | `k.regular_part(z)`   | z^a eta(z),
-/// 0 <= z <= 1                                                                  | | `k.breakpoint()`      | the
-/// interior point where eta is not smooth, or 1 if there is none                        |
+/// | expression             | meaning                                                                                |
+/// |------------------------|----------------------------------------------------------------------------------------|
+/// | `k.eta(z)`             | eta(z) >= 0, 0 < z < 1                                                                  |
+/// | `k.first_moment(z)`    | int_0^z r eta(r) dr, nondecreasing, 0 at z = 0 and 1 at z = 1                           |
+/// | `k.first_moment(cell)` | int r eta(r) dr over the cell, >= 0, to some units in the last place, however narrow    |
+/// | `k.origin_exponent()`  | a < 2 such that z^a eta(z) is smooth up to z = 0                                        |
+/// | `k.regular_part(z)`    | z^a eta(z), 0 <= z <= 1                                                                 |
+/// | `k.breakpoint()`       | the interior point where eta is not smooth, or 1 if there is none                       |
 ///
 /// Arguments are distances in units of the horizon, 0 <= z <= 1.
 template <class K>
@@ -50,8 +50,8 @@ concept IntegrableKernel = Kernel<K> && requires(const K k, double z, const Cell
   { k.mass(cell) } -> std::same_as<double>;
 };
 
-// Over a cell [a, b] the closed forms f(b) - f(a) lose the digits that both ends have in common: 8 to 12 of them at a
-// horizon of 1e4 spacings. Factored, with the width of the cell in front, they lose none.
+// Over a cell [a, b] the difference f(b) - f(a) of closed forms would lose the digits that both ends have in common: 4
+// to 13 of them at a horizon of 1e4 spacings. Factored, with the width of the cell in front, it loses none.
 
 /// eta(z) = 1/z: the singular kernel of section 4.1. Its cell moments are the cell lengths.
 struct InverseKernel {

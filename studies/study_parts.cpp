@@ -58,9 +58,17 @@ std::shared_ptr<const Scene> read_scene_with_advection(const Table& table) {
   return scene;
 }
 
-namespace {
+int read_model(const Table& table) {
+  const toml::node& model = table.need("model", "model = 1");
+  const auto number = model.value_exact<std::int64_t>();
+  if (!number || (*number != 1 && *number != 2)) {
+    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
+  }
+  return static_cast<int>(*number);
+}
 
-KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model) {
+KernelChoice read_kernel(const Table& scheme, int model) {
+  const toml::node& node = scheme.need("kernel", "kernel = \"cubic-spline\"");
   static const toml::table no_table;
   const toml::table* const table = node.as_table();
   const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
@@ -104,24 +112,17 @@ KernelChoice read_kernel(const Table& scheme, const toml::node& node, int model)
   return kernel;
 }
 
-}  // namespace
-
 SchemeChoice read_scheme(const Table& table, const Scene& scene) {
   table.allow({"model", "divergence", "kernel", "mu"});
   SchemeChoice scheme{};
-  const toml::node& model = table.need("model", "model = 1");
-  const auto number = model.value_exact<std::int64_t>();
-  if (!number || (*number != 1 && *number != 2)) {
-    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
-  }
-  scheme.model = static_cast<int>(*number);
+  scheme.model = read_model(table);
   const toml::node* const divergence = table.find("divergence");
   if (divergence != nullptr) {
     scheme.nonlocal_divergence = table.choice<bool>("divergence", *divergence, {{"local", false}, {"nonlocal", true}});
   } else if (!scene.standing()) {
     table.need("divergence", "divergence = \"local\"");
   }
-  scheme.kernel = read_kernel(table, table.need("kernel", "kernel = \"cubic-spline\""), scheme.model);
+  scheme.kernel = read_kernel(table, scheme.model);
   if (const toml::node* const mu = table.find("mu")) {
     if (scheme.model == 1) table.place(*mu).fail("Model I has no viscosity; leave mu out");
     scheme.mu = table.number("mu", *mu);

@@ -19,6 +19,10 @@ std::shared_ptr<const Scene> read_scene(const Table& table);
 /// The same for studies of an operator, which is nothing where c - b is zero everywhere.
 std::shared_ptr<const Scene> read_scene_with_advection(const Table& table);
 
+/// Model and kernel of a [[scheme]], or of another table that has the two.
+int read_model(const Table& table);
+KernelChoice read_kernel(const Table& table, int model);
+
 /// A [[scheme]]; `standing` decides whether it needs a divergence form.
 SchemeChoice read_scheme(const Table& table, const Scene& scene);
 /// All of [[scheme]], each once, with the viscosity bound of each (0 for Model I).

@@ -16,6 +16,8 @@ SCHEME_TABLE = '[[scheme]]\nmodel = 1\ndivergence = "local"\nkernel = "inverse"\
 TIME_TABLE = '[time]\nintegrator = "forward-euler"\nstep = "h/4"\n'
 SWEEP = ('[study]\nname = "sweep"\nkind = "stability"\n\n[scene]\nuse = "lee-du-2019"\n\n' + SCHEME_TABLE +
          '\n[sweep]\nN = [40]\nratios = [1]\n')
+DIGITS = ('[study]\nname = "digits"\nkind = "digits"\n\n[[weights]]\nmodel = 1\nkernel = "inverse"\n\n[digits]\n'
+          'ratios = [1]\n\n[scene]\nuse = "lee-du-2019"\n\n[gaps]\nN = 10\ntimes = [1]\n')
 EXTREMES = '[study]\nname = "ends"\nkind = "extremes"\n\n' + SCHEME_TABLE
 PATH_TABLE = STUDY[STUDY.index("[[path]]"):]
 
@@ -295,6 +297,30 @@ STUDIES = {
                                       'unknown key "path" in the study; known keys: study, scene, scheme, sweep, '
                                       'printed'),
 
+    # Digits
+    "scheme in a study of weights": (bad(("[digits]", '[[@scheme]]\nmodel = 1\n\n[digits]'), of=DIGITS),
+                                     'unknown key "scheme" in the study; known keys: study, weights, digits, scene, '
+                                     'gaps'),
+    "divergence of weights": (bad(("model = 1", 'model = 1\n@divergence = "local"'), of=DIGITS),
+                              'unknown key "divergence" in [[weights]]; known keys: model, kernel'),
+    "weights of Model II with a singular kernel": (
+        bad(("model = 1", "model = 2"), ('kernel = "inverse"', 'kernel = @"inverse"'), of=DIGITS),
+        'Model II needs an integrable kernel, and the inverse kernel is not; write "cubic-spline" or { name = "power", '
+        'alpha = 0.5 } with alpha < 1'),
+    "same weights again": (bad(("[digits]", '@[[weights]]\nmodel = 1\nkernel = "inverse"\n\n[digits]'), of=DIGITS),
+                           "the same weights a second time; leave one of them out"),
+    "ratio beyond the memory": (bad(("ratios = [1]", "ratios = [@1e6]"), of=DIGITS),
+                                "ratios contains 1000000; every entry must be positive and at most 100000: write "
+                                "ratios = [1e-12, 0.5, 2.5, 100, 1e4]"),
+    "no time at all": (bad(("times = [1]", "times = [@0]"), of=DIGITS),
+                       "times contains 0; every entry must be positive and at most 30: write times = [1, 5, 8]"),
+    "scene without gaps": (bad(("[scene]", "@[scene]"), ("[gaps]\nN = 10\ntimes = [1]\n", ""), of=DIGITS),
+                           "only [gaps] needs a scene; leave one out or add the other"),
+    "gaps of another flow": (
+        bad(('[scene]\nuse = "lee-du-2019"', '@[scene]\nperiod = "2*pi"\nT = 1\nc = 1\nb = "cos(x)"\nu = "cos(x)"'),
+            of=DIGITS),
+        'the exact gaps are those of b = sin(x) on the period 2*pi; use the scene "lee-du-2019"'),
+
     # Extremes
     "scene in a study of extremes": (bad(("[study]", '[@scene]\nuse = "lee-du-2019"\n\n[study]'), of=EXTREMES),
                                      'unknown key "scene" in the study; known keys: study, scheme, extremes'),
@@ -358,7 +384,7 @@ class BadStudy(ProgramTest):
             self.assert_bad_input(self.acstudy("explain", "bad.toml"), f"bad.toml:{place}")
 
     def test_the_studies_that_the_mistakes_are_made_in_are_good(self):
-        for text in (STUDY, INLINE, edit(STUDY, MODEL_II), edit(INLINE, (FIELDS, USE))):
+        for text in (STUDY, INLINE, DIGITS, edit(STUDY, MODEL_II), edit(INLINE, (FIELDS, USE))):
             self.write("good.toml", text)
             done = self.acstudy("explain", "good.toml")
             self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -81,6 +81,15 @@ TEST_CASE("the table of extremes has every row, each once", "[extremes]") {
                                             "square wave and hat"});
 }
 
+TEST_CASE("any schemes make a table of extremes", "[extremes]") {
+  const std::vector<SchemeChoice> schemes = {scheme(1, true, {"power", 1.9}), scheme(1, true, {"power", 0.5}),
+                                             scheme(2, false, {"power", 0.9}), scheme(2, false, {"power", -1.0})};
+  for (std::size_t count = 1; count <= schemes.size(); ++count) {
+    CHECK_FALSE(extreme_rows({{schemes.begin(), schemes.begin() + static_cast<std::ptrdiff_t>(count)}}).empty());
+  }
+  CHECK_FALSE(extreme_rows({{schemes.back()}}).empty());
+}
+
 TEST_CASE("printed sums are the rates of the schemes", "[extremes]") {
   for (const auto& choice : coarse.schemes) {
     for (const std::string name : {"lee-du-2019", "standing-variable-velocity"}) {

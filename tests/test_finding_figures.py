@@ -45,6 +45,21 @@ class Operators(FigureTest):
             for word in ("uniform", "jittered", "scheme one", "scheme two", "order 1"):
                 self.assertIn(f">{word}<", text)
 
+    def test_extremes_have_a_figure_where_something_has_an_order(self):
+        found = [finding(statement="T = 0", test="bounds", value=[0.0] * 4, upper=0.0),
+                 finding(statement="mass drift", subject="Model I, inverse", check="jittered, c = 1"),
+                 finding(statement="mass drift", subject="Model I, local divergence, inverse"),
+                 finding(statement="hat", subject="Model I, inverse", check="uniform, delta = h"),
+                 finding(statement="hat", subject="Model I, inverse", check="jittered, delta = h"),
+                 finding(statement="hat", subject="a wrong scheme", check="jittered, delta = h", verdict="below",
+                         expected="below", alarm=1)]
+        texts = self.texts("extremes", *found)
+        self.assertEqual(list(texts), ["extremes.mass-drift-jittered-particles", "extremes.mass-drift-moving-particles",
+                                       "extremes.hat"])
+        for word in ("uniform", "jittered", "Model I, inverse", "order 1"):
+            self.assertIn(f">{word}<", texts["extremes.hat"])
+        self.assertNotIn("a wrong scheme", texts["extremes.hat"])
+
     def test_what_cannot_be_drawn_leaves_no_figure_and_no_crash(self):
         for kind in ("consistency", "identities"):
             self.assertEqual(self.texts(kind, finding(**NOWHERE)), {})
@@ -53,6 +68,19 @@ class Operators(FigureTest):
         self.assertEqual(len(self.texts("identities", finding(test="bounds", upper=1.0, **NOWHERE))), 1)
         for kind in (*drawing._OF_KIND, "corpus", "a kind of tomorrow"):
             self.assertEqual(self.texts(kind, name="none"), {})
+
+    def test_digits_have_one_bound_and_pale_controls(self):
+        of = dict(test="bounds", variable_name="delta/h", quantity="max |value / exact - 1|", upper=1e-13)
+        found = [finding(check=check, statement=statement, subject=subject, **more, **of)
+                 for check in ("weights of Model I", "N_j of Model II") for subject in ("kernel one", "kernel two")
+                 for statement, more in (("round-off", {}), ("round-off, not factored", dict(expected="violated")))]
+        gaps = finding(statement="round-off", check="gaps, N = 10", **{**of, "variable_name": "T"})
+        text, = self.texts("digits", *found, gaps).values()
+        self.assertEqual(text.count(">bound<"), 2)
+        for word in ("weights of Model I", "N_j of Model II", "kernel one", "kernel two"):
+            self.assertIn(f">{word}<", text)
+        self.assertNotIn("gaps", text)
+        self.assertIn("opacity: 0.35", text)
 
     def test_departing_curves_are_marked(self):
         quiet, = self.texts("consistency", finding()).values()

@@ -43,7 +43,7 @@ class Mutants(unittest.TestCase):
             what, _, diff = patch.read_text(encoding="utf-8").partition("\n")
             with self.subTest(patch.stem):
                 self.assertRegex(what, r"\A[^-+@ ].{20,}")
-                self.assertRegex(diff, r"\A--- a/(solver|mms)/(\S+)\n\+\+\+ b/\1/\2\n@@")
+                self.assertRegex(diff, r"\A--- a/(solver|mms|studies)/(\S+)\n\+\+\+ b/\1/\2\n@@")
             said.append(what)
             changes.append(re.findall(r"^[-+](?![-+]{2} ).*", diff, re.M))
         for everything in (said, changes):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "studies/claims/extreme_rows.hpp"
 
@@ -39,7 +40,7 @@ void compare_runs(Finding& row, const Subject& subject, double ratio, const std:
     const double rounded = std::exp(1.0) * 3.0 * static_cast<double>(steps) * (4.0 * ratio + 24.0) * epsilon;
     const auto add = [&](const std::string& what, double value, double upper) {
       row.points.push_back({.N = N,
-                            .delta = ratio * 2.0 * M_PI / static_cast<double>(N),
+                            .delta = ratio * 2.0 * std::numbers::pi / static_cast<double>(N),
                             .variable = factor,
                             .value = value,
                             .upper = upper,

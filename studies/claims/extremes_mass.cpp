@@ -11,7 +11,7 @@ namespace acstudy {
 namespace {
 
 const std::string statement = "mass drift";
-const std::string quantity = "max over t of |change of sum V_j u_j| / sum V_j |u_j|, root mean square over runs";
+const std::string quantity = "relative drift of sum V_j u_j: largest over t, root mean square over runs";
 
 /// sum V_j u_j, V_j half the distance between the two neighbors of particle j.
 double mass(std::span<const double> x, std::span<const double> u, double period) {

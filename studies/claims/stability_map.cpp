@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "studies/claims/stability.hpp"
@@ -17,9 +16,6 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Row sums and eigenvalues of some hundred terms, relative.
 constexpr double round_off = 1e-11;
-/// Where the stability function of SDIRK2 is absolutely monotone: its numerator 1 + (1 - 2 gamma) z >= 0.
-constexpr double sdirk2_radius = 1.0 / (1.0 - 2.0 * sdirk2_gamma);
-
 /// What the bounds on a subject's steps are made of.
 struct Constants {
   double C;      ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant
@@ -65,20 +61,28 @@ struct Frozen {
   }
 };
 
+/// The largest dt at which the integrator's stability function phi(C dt) has no pole yet.
+double up_to_the_pole(const Integrator& integrator, double C) {
+  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.implicit_stages.front().diagonal * C) : unbounded;
+}
+
+/// phi(C dt), to which theory bounds the norm of a step within the condition; infinite beyond the pole.
+double phi(const Integrator& integrator, double C, double dt) {
+  return dt < up_to_the_pole(integrator, C) ? stability_function(integrator, C * dt).real() : unbounded;
+}
+
 /// Bound on the norm of a step, infinite where theory gives none.
 double step_bound(const Integrator& integrator, double dt, double rows, double C) {
-  if (rows == 0.0) return unbounded;
-  if (!integrator.implicit()) return dt <= rows * (1.0 + 1e-12) ? std::exp(C * dt) : unbounded;
-  if (integrator.stage_count() == 1) return C * dt < 1.0 ? 1.0 / (1.0 - C * dt) : unbounded;
-  return C == 0.0 && dt <= sdirk2_radius * rows * (1.0 + 1e-12) ? 1.0 : unbounded;
+  const bool within = rows > 0.0 && dt <= monotonicity_radius(integrator) * rows * (1.0 + 1e-12);
+  return within ? phi(integrator, C, dt) : unbounded;
 }
 
 /// What step_bound says, in words.
 std::string step_claim(const Integrator& integrator) {
-  if (!integrator.implicit()) return "a step grows by no more than exp(C dt) within the condition of the rows";
-  if (integrator.stage_count() == 1)
-    return "a step grows by no more than 1/(1 - C dt), at any CFL number with C dt < 1";
-  return "a step does not grow up to 1 + sqrt(2) times the condition of the rows, where velocities are constant";
+  const double radius = monotonicity_radius(integrator);
+  if (std::isinf(radius)) return "a step grows by no more than 1/(1 - C dt), at any CFL number with C dt < 1";
+  return fmt::format("a step grows by no more than phi(C dt), up to {}the condition of the rows",
+                     radius == 1.0 ? "" : "1 + sqrt(2) times ");
 }
 
 std::string lemma_of(const Subject& subject) { return subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3"; }
@@ -125,7 +129,7 @@ void product_along_motion(const Subject& subject, const Integrator& integrator, 
     take_step(integrator, rates, step->dt, product);
     bound *= step_bound(integrator, step->dt, least_rows, constants.C);
     const double norm = max_norm(product);
-    seen(step->end, norm, std::min(bound, largest_norm) * (1.0 + round_off));
+    seen(step->end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
     if (norm == largest_norm) return;
   }
 }
@@ -173,11 +177,10 @@ class FrozenMeter {
 /// absolutely monotone function of a matrix that forward Euler keeps positive.
 bool entries_are_promised(const Subject& subject, const Integrator& integrator, const Frozen& frozen, double C,
                           double dt) {
-  const double radius = integrator.implicit() ? sdirk2_radius : 1.0;
-  const bool within = dt <= radius * frozen.rows * (1.0 + 1e-12);
-  const bool any_step = integrator.name == "backward-euler";
-  if (subject.scheme.model == 1) return any_step || within;
-  return any_step ? C * dt < 1.0 && frozen.rows > 0.0 : within && C == 0.0;
+  const double radius = monotonicity_radius(integrator);
+  const bool within = frozen.rows > 0.0 && dt <= radius * frozen.rows * (1.0 + 1e-12);
+  if (subject.scheme.model == 1) return within;
+  return within && (std::isinf(radius) ? C * dt < 1.0 : C == 0.0);
 }
 
 }  // namespace
@@ -234,7 +237,7 @@ Finding sharp_limit(const Subject& subject, const Integrator& integrator, const 
                     double highest) {
   const Constants constants(subject);
   const double C = constants.C;
-  const bool exact = C == 0.0 && measure == Measure::norm && integrator.name == "forward-euler" &&
+  const bool exact = C == 0.0 && measure == Measure::norm && &integrator == &integrators[0] &&
                      subject.arrangement == Arrangement::uniform && subject.scheme.control.empty();
   const bool second = subject.scheme.model == 2;
   Finding finding = finding_on(
@@ -250,12 +253,10 @@ Finding sharp_limit(const Subject& subject, const Integrator& integrator, const 
     for (const std::vector<double>& x : subject.positions(grid.N)) {
       const Frozen frozen(subject, constants, x, delta);
       const FrozenMeter meter(integrator, frozen, measure);
+      const double pole = up_to_the_pole(integrator, C);
       const auto stable = [&](double cfl) {
         const double dt = cfl * frozen.lemma;
-        // Backward Euler may grow by 1/(1 - C dt), more than exp(C dt); beyond C dt = 1 nothing is promised.
-        const double bound =
-            integrator.name == "backward-euler" ? (C * dt < 1.0 ? 1.0 / (1.0 - C * dt) : unbounded) : std::exp(C * dt);
-        return meter(dt) <= bound * (1.0 + round_off);
+        return dt < pole && meter(dt) <= phi(integrator, C, dt) * (1.0 + round_off);
       };
       // The first CFL number that is not stable, by doubling; then between it and the last stable one.
       double low = 1e-3, high = low;
@@ -268,11 +269,8 @@ Finding sharp_limit(const Subject& subject, const Integrator& integrator, const 
           (stable(middle) ? low : high) = middle;
         }
       }
-      const double needed = frozen.rows / frozen.lemma;
-      double least = 0.0;
-      if (!integrator.implicit()) least = needed;
-      if (integrator.name == "backward-euler" && needed > 0.0) least = highest;
-      if (integrator.name == "sdirk2" && C == 0.0) least = std::min(sdirk2_radius * needed, highest);
+      const double promised = frozen.rows > 0.0 ? std::min(monotonicity_radius(integrator) * frozen.rows, pole) : 0.0;
+      const double least = std::min(promised / frozen.lemma, highest);
       if (std::isnan(worst.value) || low - least < worst.value - worst.lower) {
         worst.value = low;
         worst.lower = least * (1.0 - 1e-6);

@@ -27,15 +27,15 @@ enum class Measure {
 
 const char* quantity_of(Measure measure);
 
-/// Values of a measure at each horizon and CFL number. Bounded where theory bounds it, with C = ||c_hat'|| + ||b'||: by
-/// exp(C dt) a step of an explicit integrator, if it keeps to what the rows need; by 1/(1 - C dt) one of backward
-/// Euler, at any CFL number with C dt < 1; by one a step of SDIRK2 up to 1 + sqrt(2) times what the rows need, where C
-/// = 0.
+/// Values of a measure at each horizon and CFL number, bounded where theory bounds them. With C = ||c_hat'|| + ||b'||
+/// and the integrator's stability function phi, a step grows by at most phi(C dt) while dt is at most
+/// `monotonicity_radius` times what the rows need: at any step of backward Euler, where phi(C dt) = 1/(1 - C dt), while
+/// C dt < 1.
 Finding stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid, Measure measure);
 
-/// The largest CFL number, found by bisection, up to which norm or spectral radius of a step keep to exp(C dt), or for
-/// implicit integrators to one over exp(-C dt), at each horizon. At least what the rows need; exactly that for forward
-/// Euler on uniform standing particles at constant velocity, where the condition
+/// The largest CFL number, found by bisection, up to which norm or spectral radius of a step keep to phi(C dt), at each
+/// horizon. At least what theory promises; exactly what the rows need for forward Euler on uniform standing particles
+/// at constant velocity, where the condition
 ///
 ///     Model I    c dt sum_k W_k <= 1
 ///     Model II   dt mu (reach/N_j) sum_k W_k/(x_i - x_j) <= 1   and   mu reach >= |c| |x_i - x_j| for all neighbors

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace acstudy {
@@ -62,6 +63,12 @@ std::complex<double> stability_function(const Integrator& integrator, std::compl
     if (&stage == &integrator.implicit_stages.front()) k_1 = (u - 1.0) / stage.diagonal;
   }
   return u;
+}
+
+double monotonicity_radius(const Integrator& integrator) {
+  if (!integrator.implicit()) return 1.0;
+  const ImplicitStage& last = integrator.implicit_stages.back();
+  return last.previous == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / (last.previous - last.diagonal);
 }
 
 double max_norm(const Eigen::MatrixXd& matrix) {

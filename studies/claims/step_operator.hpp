@@ -30,6 +30,11 @@ Eigen::MatrixXd step_operator(const Integrator& integrator, const SparseMatrix& 
 /// The function r with S = r(dt R): u^{n+1} = r(z) u^n for u' = lambda u, z = lambda dt.
 std::complex<double> stability_function(const Integrator& integrator, std::complex<double> z);
 
+/// The function phi = stability_function is absolutely monotone on [-x, 0] up to this x: a step of an integrator may be
+/// that many times longer than one of forward Euler. 1 for explicit stages, which are convex combinations; infinite for
+/// one implicit stage; for two, S = (I - gamma dt R)^-2 (I + (1 - 2 gamma) dt R) and its numerator decides.
+double monotonicity_radius(const Integrator& integrator);
+
 /// Largest row sum of absolute values.
 double max_norm(const Eigen::MatrixXd& matrix);
 

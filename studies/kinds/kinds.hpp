@@ -30,6 +30,8 @@ void read_map(const Table& root, Study& study);
 void read_extremes(const Table& root, Study& study);
 /// What part of the finest errors of convergence studies is of the time step, of the source's quadrature, of round-off.
 void read_pollution(const Table& root, Study& study);
+/// What round-off makes of weights, renormalizations and gaps, against arithmetic of 50 digits.
+void read_digits(const Table& root, Study& study);
 /// The judge on synthetic series whose right verdict is known.
 void read_corpus(const Table& root, Study& study);
 /// How often the reported interval contains the true order.
@@ -52,6 +54,7 @@ inline constexpr std::array kinds = {
     Kind{"map", "errors over the plane of horizon and spacing", read_map},
     Kind{"extremes", "expectation and observation at the ends of every range", read_extremes},
     Kind{"pollution", "parts of the finest errors that are not of the scheme in space", read_pollution},
+    Kind{"digits", "round-off of weights and renormalizations, against 50 digits", read_digits},
     Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},
     Kind{"coverage", "how often the 95 % interval contains the true order", read_coverage},
 };

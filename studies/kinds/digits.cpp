@@ -1,0 +1,74 @@
+#include "studies/claims/digits.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "studies/kinds/kinds.hpp"
+#include "studies/study_parts.hpp"
+
+namespace acstudy {
+
+namespace {
+
+/// The positive numbers of a list, each at most `most`.
+std::vector<double> read_positive(const Table& table, const std::string& key, const std::string& example, double most) {
+  std::vector<double> values;
+  for (const toml::node& item : table.list(key, example)) {
+    const double value = values.emplace_back(table.number(key, item));
+    if (!(value > 0.0 && value <= most)) {
+      table.place(item).fail(fmt::format("{} contains {}; every entry must be positive and at most {:g}: write {}", key,
+                                         value, most, example));
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+void read_digits(const Table& root, Study& study) {
+  root.allow({"study", "weights", "digits", "scene", "gaps"});
+  const Table digits = root.sub_table("digits");
+  digits.allow({"ratios"});
+  // The particles of larger ratios would fill the memory.
+  const std::vector<double> ratios = read_positive(digits, "ratios", "ratios = [1e-12, 0.5, 2.5, 100, 1e4]", 1e5);
+  const auto add = [&](const Finding& named, std::function<Finding()> take) {
+    study.measurements.push_back({named.label(), [take = std::move(take)](const auto&) { return take(); }});
+  };
+
+  std::set<std::string> known;
+  for (const Table& table : root.array_of_tables("weights")) {
+    table.allow({"model", "kernel"});
+    const int model = read_model(table);
+    const WeightsChoice choice{model, read_kernel(table, model)};
+    if (!known.insert(fmt::format("{} {}", model, choice.kernel.label())).second) {
+      table.place().fail("the same weights a second time; leave one of them out");
+    }
+    for (const CellForm form : {CellForm::factored, CellForm::difference}) {
+      add(round_off_of_weights(choice, {}, form), [=] { return round_off_of_weights(choice, ratios, form); });
+    }
+    if (model == 2) {
+      add(round_off_of_renormalization(choice, {}), [=] { return round_off_of_renormalization(choice, ratios); });
+    }
+  }
+
+  const toml::node* const scene = root.find("scene");
+  if (root.find("gaps") == nullptr) {
+    if (scene != nullptr) root.place(*scene).fail("only [gaps] needs a scene; leave one out or add the other");
+    return;
+  }
+  study.scene = read_scene(root.sub_table("scene"));
+  const SceneText& text = study.scene->text();
+  if (text.b != "sin(x)" || std::abs(study.scene->period() - 2.0 * std::numbers::pi) > 1e-15) {
+    root.place(*scene).fail("the exact gaps are those of b = sin(x) on the period 2*pi; use the scene \"lee-du-2019\"");
+  }
+  const Table table = root.sub_table("gaps");
+  table.allow({"N", "times"});
+  const std::vector<double> times = read_positive(table, "times", "times = [1, 5, 8]", 30.0);
+  const std::int64_t N = table.whole("N", table.need("N", "N = 1000"), 3, 1'000'000);
+  add(round_off_of_gaps(*study.scene, N, {}), [=, scene = study.scene] { return round_off_of_gaps(*scene, N, times); });
+}
+
+}  // namespace acstudy

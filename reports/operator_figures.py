@@ -95,11 +95,6 @@ def curves_figure(found, one_bound=False):
         return figure
 
 
-def drawable(finding):
-    """Whether a finding has values that can be drawn over its variable."""
-    return _curve(finding) is not None
-
-
 def arrangement(finding):
     return finding.check.partition(", ")[0]
 

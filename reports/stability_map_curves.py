@@ -11,8 +11,7 @@ import axes
 from look import COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
 import names
 from operator_figures import legend_columns, subject_styles
-from stability_map_findings import (CAPPED, NORM, SEARCH_END, integrator_of, lemma, of_kind, ordered, parts, subject_of,
-                                    velocities_vary)
+from stability_map_findings import (CAPPED, NORM, SEARCH_END, integrator_of, lemma, of_kind, ordered, parts, subject_of)
 
 COLUMNS = 4             # panels beside one another
 
@@ -31,13 +30,12 @@ def _limits(study):
         f"{study.name}.limits", f"{study.title}: sharp limits", limits_figure(found),
         "Log-log plots of the largest CFL number at which no step grows in the max norm beyond its bound against "
         "delta/h, a panel per lemma and arrangement of the particles. Values: table below.",
-        "Largest CFL number, by bisection, up to which no step grows beyond exp(CΔt) in the max norm. Black line: the "
-        "condition that the lemma prints; it does not suffice where a limit lies below it. Pale: the condition that "
-        "the rows of the scheme need. Marks at the edges are of the first integrator: triangles above, no limit up "
-        f"to {SEARCH_END:g}, where the search ends; crosses below, no step is stable, however short. Integrators "
-        "without any limit are left out."
-        + (" Where velocities vary, exp(CΔt) is much for a long step: no limit means no more growth than that."
-           if velocities_vary(study) else ""),
+        "Largest CFL number, by bisection, up to which no step grows beyond φ(CΔt) in the max norm, φ the stability "
+        "function of the integrator; where velocities vary, C > 0, implicit steps have to stay below its pole, a level "
+        "line. Black line: the condition that the lemma prints; it does not suffice where a limit lies below it. Pale: "
+        "the condition that the rows of the scheme need. Marks at the edges are of the first integrator: triangles "
+        f"above, no limit up to {SEARCH_END:g}, where the search ends; crosses below, no step is stable, however short. "
+        "Integrators without any limit are left out.",
         tuple(ordered(found, lambda finding: finding.statement)))]
 
 

@@ -17,7 +17,7 @@ import names
 import stability_map_curves
 from stability_map_curves import COLUMNS, wrapped
 from stability_map_findings import (GROWTH, NORM, SEARCH_END, SPECTRAL, WITHIN, allowed_growth, integrator_of, lemma,
-                                    of_kind, ordered, parts, plane, promised_throughout, subject_of, velocities_vary)
+                                    of_kind, ordered, parts, plane, subject_of)
 
 # Growth relative to what is allowed: the first band is what keeps to it.
 LEVELS = (1.0, 3.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6)
@@ -56,11 +56,9 @@ def _map_drawing(study, found, arrangement, allowed, part):
     drawn = [finding for finding in found if integrator_of(finding) not in quiet]
     lemmas = ordered(found, lemma)
     until = "T" if study.scene is None else f"T = {study.scene.T:g}"
-    relative = f", over exp(CT) = {allowed:.3g}, which theory allows" if allowed > WITHIN else ""
+    relative = f", over exp(CT) ≈ {allowed:.3g}, which theory allows" if allowed > WITHIN else ""
     left_out = (f" Not drawn, for they keep to what is allowed everywhere: {', '.join(quiet)}." if quiet else "")
-    taken_for = ", for a control that of the scheme that it is taken for" if any(one.control for one in drawn) else ""
-    held = ("; beyond 1/(1 − CΔt) for backward Euler, of which nothing is asked once CΔt ≥ 1" if velocities_vary(study)
-            else "")
+    taken_for = "; for a control, of the scheme that it is taken for" if any(one.control for one in drawn) else ""
     return Drawing(
         ".".join(filter(None, (study.name, part))), ": ".join((study.title, " and ".join(lemmas))),
         map_figure(drawn, study, allowed),
@@ -68,10 +66,10 @@ def _map_drawing(study, found, arrangement, allowed, part):
         f"scheme and integrator, with the bound of {' and '.join(lemmas)} and the sharp limits. Values: table below.",
         f"Color: max norm of all steps to {until} on {arrangement} particles{relative}; a cell per measured value. Far "
         f"above the limits T holds but a few steps, in which little can grow.{left_out} Lines: the CFL number that the "
-        "lemma prints, the condition that the rows of the scheme need (for SDIRK2 what follows from it"
-        f"{taken_for}; none where theory promises nothing), and the largest CFL numbers, by bisection, at which no "
-        f"single step grows beyond exp(CΔt), in the max norm and in the spectral radius{held}. A line that leaves a "
-        "panel above goes to a value there, or to none.",
+        "lemma prints, what the rows of the scheme need, times what the integrator makes of it (its radius of "
+        f"monotonicity{taken_for}), and the largest CFL numbers, by bisection, at which no single step grows beyond "
+        "φ(CΔt), φ its stability function, in the max norm and in the spectral radius. A line that leaves a panel "
+        "above goes to a value there, or to none.",
         tuple(f"{one}, {kind}" for one in lemmas for kind in ("map", NORM, SPECTRAL)))
 
 
@@ -79,7 +77,6 @@ def map_figure(found, study, allowed):
     """A column per scheme, a row per integrator; growth over what is allowed as color, the study's limits as lines."""
     with typography():
         limits = [finding for kind in (SPECTRAL, NORM) for finding in of_kind(study, kind)]
-        vary = velocities_vary(study)
         subjects, integrators = ordered(found, subject_of), ordered(found, integrator_of)
         planes = {(subject_of(one), integrator_of(one)): (one, *plane(one)) for one in found}
         left, right, gap, between, foot = 0.75, 1.15, 0.14, 0.1, 0.95
@@ -105,7 +102,7 @@ def map_figure(found, study, allowed):
                                      xscale="log", yscale="log")
                     _draw_plane(panel, *values, allowed, colors, norm)
                     marked |= _draw_limits(panel, [one for one in limits if (one.subject, parts(one)[:2]) ==
-                                                   (subject, parts(finding)[:2])], vary)
+                                                   (subject, parts(finding)[:2])])
                     axes.set_log_limits(panel, x_limits, y_limits, (width, tall))
                     panel.minorticks_off()      # they would take half of the drawing time
                     below = any((subject, other) in planes for other in integrators[i + 1:])
@@ -172,8 +169,8 @@ def _draw_plane(panel, ratios, cfl, values, allowed, colors, norm):
     panel.add_collection(PolyCollection(corners, facecolor=filled, edgecolor="face", linewidth=0.3), autolim=False)
 
 
-def _draw_limits(panel, limits, vary):
-    """The lemma's CFL number 1 and the limits of one panel; whether somewhere no step is stable. `vary`: velocities."""
+def _draw_limits(panel, limits):
+    """The lemma's CFL number 1 and the limits of one panel; whether somewhere no step is stable."""
     panel.axhline(1.0, color=LEMMA, linewidth=2.2, zorder=3)
     none = False
     for finding in limits:
@@ -190,10 +187,8 @@ def _draw_limits(panel, limits, vary):
             panel.annotate("none", (x[y == 0][0], 0.12), xycoords=panel.get_xaxis_transform(), ha="center",
                            va="bottom", fontsize=9, path_effects=_HALO)
         if np.all(y >= SEARCH_END):
-            bounded = vary and promised_throughout(finding)
-            said = r"no limit while $C\Delta t<1$" if bounded else f"no limit up to {SEARCH_END:g}"
-            panel.annotate(said, (0.5, 0.93), xycoords="axes fraction", ha="center", va="top", fontsize=9,
-                           path_effects=_HALO)
+            panel.annotate(f"no limit up to {SEARCH_END:g}", (0.5, 0.93), xycoords="axes fraction", ha="center",
+                           va="top", fontsize=9, path_effects=_HALO)
     return none
 
 

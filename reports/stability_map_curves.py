@@ -34,8 +34,8 @@ def _limits(study):
         "function of the integrator; where velocities vary, C > 0, implicit steps have to stay below its pole, a level "
         "line. Black line: the condition that the lemma prints; it does not suffice where a limit lies below it. Pale: "
         "the condition that the rows of the scheme need. Marks at the edges are of the first integrator: triangles "
-        f"above, no limit up to {SEARCH_END:g}, where the search ends; crosses below, no step is stable, however short. "
-        "Integrators without any limit are left out.",
+        f"above, no limit up to {SEARCH_END:g}, where the search ends; crosses below, no step is stable. Integrators "
+        "without any limit are left out.",
         tuple(ordered(found, lambda finding: finding.statement)))]
 
 

@@ -63,9 +63,9 @@ def _summary(studies):
     parts = [f'<section aria-labelledby="summary">\n<h2 id="summary">Claims and verdicts</h2>\n{said}',
              '<p><a href="claims.html">Claim by claim</a>: every statement of the paper with the worst that was '
              "measured of it.</p>\n"]
-    if rows or not found:
-        parts.append(markup.table(columns, rows, "Claims and verdicts"))
     stepped = [study for study in studies if study.steps_in_several_ways]
+    if rows or not (found or stepped):
+        parts.append(markup.table(columns, rows, "Claims and verdicts"))
     if stepped:
         parts.append("<p>Run with several integrators and steps:</p>\n")
         parts.append(markup.table(("study", "", "series", "blow up", "as expected"), "".join(map(_stepped_row, stepped)),

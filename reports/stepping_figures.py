@@ -11,8 +11,8 @@ from look import COLORS, DASHES, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes
 import markup
 import names
 
-COLUMNS = ("scheme", "path", "steps", "verdict", "as expected", "<var>N</var>", "max-norm error", "steps taken",
-           "longest step / bound", "beyond the bound from", "run time (s)", "given up at")
+COLUMNS = ("scheme", "path", "steps", "came to be", "as expected", "<var>N</var>", "max-norm error", "run time (s)",
+           "steps taken", "longest / bound", "beyond it from", "given up at")
 
 
 def drawings(study):
@@ -126,8 +126,14 @@ def _row(series, label):
                     f"{cases.last_time[i]:.3g}, <var>x</var> = {cases.last_place[i]:.4g}")
     number = '<td class="number">{}</td>'.format
     return (f'<tr{markup.departs(series)}><th scope="row">{escape(label)}</th><td>{escape(series.path)}</td>'
-            f'<td class="said">{escape(series.stepping)}</td><td>{markup.badge(series, series.expected == "unstable")}</td>'
+            f'<td class="said">{escape(series.stepping)}</td><td>{_came_to_be(series)}</td>'
             f"<td>{markup.expected(series)}</td>{number(cases.N[-1])}{number(markup.error(cases.error_linf[-1]))}"
-            f"{number(markup.count(cases.steps[-1]))}{number(bound)}"
-            f'<td class="said">{where}</td>{number(markup.seconds(cases.seconds[-1]))}<td class="said">{given_up}</td>'
-            "</tr>\n")
+            f"{number(markup.seconds(cases.seconds[-1]))}{number(markup.count(cases.steps[-1]))}{number(bound)}"
+            f'<td class="said">{where}</td><td class="said">{given_up}</td></tr>\n')
+
+
+def _came_to_be(series):
+    """The verdict; where nothing but stability was asked for, that it is stable."""
+    if series.expected == "stable" and series.as_expected:
+        return '<span class="badge good">stable</span>'
+    return markup.badge(series, series.expected == "unstable")

@@ -54,6 +54,7 @@ class SteppingFigures(ReportTest):
         rows = table.split("<tr")[2:]
         self.assertEqual(len(rows), 3)
         self.assertIn("0.9", rows[0])
+        self.assertIn(">stable<", rows[0])
         for words in ("unstable", "160", "step 124, <var>t</var> = 1.1, <var>x</var> = 3.14",
                       "step 399 of <var>N</var> = 1280, <var>t</var> = 2.12, <var>x</var> = 3.188"):
             self.assertIn(words, rows[1])
@@ -67,7 +68,7 @@ class SteppingFigures(ReportTest):
         code, _, err = self.run_report(self.folder)
         self.assertEqual((code, err), (0, ""))
         page = (self.folder / "index.html").read_text(encoding="utf-8")
-        for words in ("Run with several integrators and steps", "stiff.svg", "beyond the bound from", "Every series"):
+        for words in ("Run with several integrators and steps", "stiff.svg", "beyond it from", "Every series"):
             self.assertIn(words, page)
         claims = (self.folder / "claims.html").read_text(encoding="utf-8")
         self.assertIn("Stiff scenes", claims)

@@ -180,6 +180,8 @@ def _series(series, label):
     departs = "" if series.as_expected else f' <strong class="warning">expected {escape(series.expected)}</strong>'
     details = [f"{series.scheme.kernel} kernel", f"{series.source} source", series.integrator,
                f"step at most {series.step_text}"]
+    if series.start != "uniform":
+        details.append(f"start {series.start}")
     if series.scheme.alpha is not None:
         details.insert(1, f"α = {series.scheme.alpha:.6g}")
     if series.scheme.mu is not None:

@@ -84,6 +84,7 @@ class Series:
     delta_text: str
     step_text: str
     integrator: str
+    start: str          # where particles stand at first: "uniform", "jittered(0.01, seed 1)", ...
     stepping: str       # integrator and rule of steps, where the study has several; else empty
     theory_variable: str
     theory_order: float
@@ -238,7 +239,7 @@ def _series(group):
     cases = _cases(group)
     window = (int(_number(group, "observed_window_first", 1)), int(_number(group, "observed_window_last", len(cases))))
     return Series(scheme=scheme, window=window, as_expected=bool(_number(group, "as_expected")), cases=cases,
-                  stepping=_text(group, "stepping", ""),
+                  stepping=_text(group, "stepping", ""), start=_text(group, "start", "uniform"),
                   **{name: _text(group, name) for name in texts},
                   **{name: _number(group, name) for name in numbers},
                   **{name: _number(group, f"observed_{stored}", math.nan) for name, stored in later.items()})

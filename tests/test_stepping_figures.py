@@ -74,6 +74,14 @@ class SteppingFigures(ReportTest):
         self.assertIn("Stiff scenes", claims)
         self.assertIn("negative controls: 1 of 1 fail", claims)
 
+    def test_a_start_that_is_not_uniform_is_named(self):
+        write(self.folder, "clustered", series(start="clustered(0.25)"))
+        write(self.folder, "plain", series())
+        self.assertEqual(self.run_report(self.folder)[0], 0)
+        page = (self.folder / "index.html").read_text(encoding="utf-8")
+        self.assertEqual(page.count(", start clustered(0.25)"), 1)
+        self.assertEqual(page.count(", start "), 1)
+
     def test_files_without_these_columns_are_read(self):
         study = self.study(series())
         self.assertFalse(study.steps_in_several_ways)

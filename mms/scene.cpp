@@ -99,15 +99,17 @@ void Scene::check_flow() const {
   std::vector<double> position(x.size()), speed(x.size()), b(x.size());
   for (const double t : {0.0, 0.37 * T_, T_}) {
     flow_->evaluate(x, {t}, {position, {}, speed});
-    this->b(position, b);
+    this->b(x, b);
+    // Particles may have gathered where b is small.
     double scale = 0.0, gap = 0.0;
+    for (const double value : b) scale = std::max(scale, std::abs(value));
+    this->b(position, b);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (t == 0.0 && !(std::abs(position[i] - x[i]) <= 1e-9 * period_)) {
         throw SceneError(
             "flow", 0,
             fmt::format("the flow at t = 0 takes x = {:.6g} to {:.6g}; it must leave it there", x[i], position[i]));
       }
-      scale = std::max(scale, std::abs(b[i]));
       const double difference = std::abs(speed[i] - b[i]);
       gap = std::max(gap, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
     }

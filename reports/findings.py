@@ -91,8 +91,10 @@ def ledger(studies):
     found = {}
     for study in studies:
         if study.kind not in OF_MEASUREMENT:
-            for entry in entries(study):
-                found.setdefault(entry.statement, []).append(entry)
+            for entry, source in zip(entries(study), study.judged):
+                # Values that theory does not bound are for the record.
+                if study.kind == CONVERGENCE or source.promised != "inconclusive":
+                    found.setdefault(entry.statement, []).append(entry)
     statements = [Statement(name, tuple(group)) for name, group in found.items()]
     of_paper = [statement for statement in statements if _base(statement.name) in PAPER]
     of_paper.sort(key=lambda statement: (PAPER.index(_base(statement.name)), statement.name))

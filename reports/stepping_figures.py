@@ -73,8 +73,9 @@ def run_time_figure(panels):
 
 def _said(way, every):
     """A way to step, and whether every run of it blew up."""
-    lost = [not np.isfinite(series.cases.error_linf).any() for series in every if series.stepping == way]
-    return f"{way}: blows up" if all(lost) else way
+    verdicts = {series.verdict for series in every if series.stepping == way}
+    finite = any(np.isfinite(series.cases.error_linf).any() for series in every if series.stepping == way)
+    return f"{way}: blows up" if verdicts == {"unstable"} and not finite else way
 
 
 def _style(i):

@@ -59,6 +59,8 @@ inline constexpr Integrator integrators[] = {
     {"backward-euler", 1, {}, backward_euler_stages}, {"sdirk2", 2, {}, sdirk2_stages},
 };
 
+inline constexpr const Integrator& forward_euler = integrators[0];
+
 /// Equal steps: the fewest with dt <= bound (T an exact multiple of the bound up to round-off counts as such).
 inline std::int64_t steps_for(double T, double bound) {
   return static_cast<std::int64_t>(std::ceil(T / bound * (1.0 - 1e-12)));

@@ -54,14 +54,17 @@ template <class Motion>
 class SchemeInMotion {
  public:
   /// All arguments outlive the system.  @param result  gets the times and counts of what the scheme does not count
-  SchemeInMotion(const Case& c, Scheme& scheme, Source& source, Motion& motion, CaseResult& result)
+  SchemeInMotion(const Case& c, Scheme& scheme, Source& source, Motion& motion, BoundWatch& watch, CaseResult& result)
       : scheme_(scheme),
         source_(source),
         motion_(motion),
+        watch_(watch),
         result_(result),
         particles_(static_cast<std::size_t>(c.N), c.scene->period(), c.delta),
         f_(particles_.size()),
-        bound_by_rows_(c.step.bound == StepRule::Bound::rows),
+        step_(c.step),
+        T_(c.scene->T()),
+        looks_ahead_(c.integrator->stages.size() > 1 && !c.scene->standing()),
         watched_(!c.integrator->implicit()),
         lemma_bound_(c.lemma_bound(1.0)) {
     place(0.0);
@@ -85,15 +88,19 @@ class SchemeInMotion {
     solver_.solve(u.values());
   }
 
-  /// The largest step that the bound of the study's step rule allows from t on.
-  double bound(double t) {
-    move(t);
-    return bound_by_rows_ ? 1.0 / scheme_.strongest_decay() : lemma_bound_ * smallest_gap().width;
+  /// The largest step that the study's step rule allows from t on: by the particles at t and, where later stages see
+  /// them moved, by those at the end of the step too.
+  double largest_step(double t) {
+    const double now = step_.safety * bound(t);
+    return looks_ahead_ ? std::min(now, step_.safety * bound(std::min(t + now, T_))) : now;
   }
 
-  BoundWatch& watch() { return watch_; }
-
  private:
+  double bound(double t) {
+    move(t);
+    return step_.bound == StepRule::Bound::rows ? 1.0 / scheme_.strongest_decay() : lemma_bound_ * smallest_gap().width;
+  }
+
   struct Gap {
     double width, place;
   };
@@ -137,14 +144,16 @@ class SchemeInMotion {
   Scheme& scheme_;
   Source& source_;
   Motion& motion_;
+  BoundWatch& watch_;
   CaseResult& result_;
   Particles particles_;
   std::vector<double> f_;
-  bool bound_by_rows_;
+  StepRule step_;
+  double T_;
+  bool looks_ahead_;
   bool watched_;        ///< implicit steps are bounded by no lemma
   double lemma_bound_;  ///< for a smallest gap of 1
   Gap gap_ = {};
-  BoundWatch watch_;
   RateMatrix matrix_;
   ImplicitSolver solver_;
   double factorized_for_ = 0.0;  ///< the scale; 0: for none
@@ -169,7 +178,8 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   GrowthWatch growth(u.values());
   double t = 0.0;
 
-  const auto keep_going = [&](BoundWatch& watch, std::int64_t n, TimeStep step) {
+  BoundWatch watch;
+  const auto keep_going = [&](std::int64_t n, TimeStep step) {
     watch.step(n, step);
     result.dt = std::max(result.dt, step.dt);
     result.dt_smallest = n == 1 ? step.dt : std::min(result.dt_smallest, step.dt);
@@ -185,21 +195,18 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
 
   const auto start = std::chrono::steady_clock::now();
   try {
-    SchemeInMotion<Motion> system(c, scheme, source, motion, result);
-    const auto run = [&](auto steps) {
-      integrate(*c.integrator, u, std::move(steps), system,
-                [&](std::int64_t n, TimeStep step) { return keep_going(system.watch(), n, step); });
-    };
+    SchemeInMotion<Motion> system(c, scheme, source, motion, watch, result);
+    const auto run = [&](auto steps) { integrate(*c.integrator, u, std::move(steps), system, keep_going); };
     if (c.step.bound == StepRule::Bound::none) {
       run(EqualSteps(scene.T(), c.steps));
     } else {
-      run(BoundedSteps(scene.T(), [&](double now) { return c.step.safety * system.bound(now); }));
+      run(BoundedSteps(scene.T(), [&](double now) { return system.largest_step(now); }));
     }
-    result.against_bound = system.watch().result();
   } catch (const std::domain_error& error) {
     growth.restore(u.values());
     result.failure = fmt::format("{} in step {}, from t = {:.6g} on", error.what(), result.steps + 1, t);
   }
+  result.against_bound = watch.result();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (stop.load(std::memory_order_relaxed)) return result;
 
@@ -212,6 +219,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   result.u.assign(u.values().begin(), u.values().end());
   result.u_exact.resize(count);
   scene.u(x, end, result.u_exact);
+  result.solution_linf = max_norm(result.u_exact);
   const Errors errors = errors_of(scene, result.x, result.u, result.u_exact);
   if (to_the_end) {
     result.error_linf = errors.linf;

@@ -28,6 +28,11 @@ Row row_of(const std::string& file, const std::string& study, const std::string&
 
 Row check_series(const std::string& file, const SeriesRecord& record) {
   Judgement judgement = judge(record.levels, record.theory_order);
+  if (record.expected == Verdict::stable) {
+    for (std::size_t i = 0; i < record.levels.size(); ++i) {
+      require_bounded(judgement, record.levels[i].error, record.solutions[i]);
+    }
+  }
   if (!record.failure.empty()) {
     judgement.verdict = Verdict::inconclusive;
     judgement.reason = not_computed(record.failure);

@@ -115,7 +115,8 @@ std::string explain(const Study& study) {
     }
   }
   out += fmt::format(
-      "\n{} series, {} cases; neighbors and CFL at the uniform start\n\nleft out, because nothing here needs it:\n{}",
+      "\n{} series, {} cases; neighbors of uniform particles, CFL at the start\n\nleft out, because nothing here needs "
+      "it:\n{}",
       study.series.size(), count, left_out(study));
   return out;
 }

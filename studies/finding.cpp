@@ -24,6 +24,12 @@ Judgement judge_bounds(const std::vector<Point>& points) {
   };
   const auto worst = std::min_element(points.begin(), points.end(), worse);
   if (worst == points.end()) return judgement;
+  const auto bounded = [](const Point& p) { return std::isfinite(p.lower) || std::isfinite(p.upper); };
+  if (std::none_of(points.begin(), points.end(), bounded) && within(*worst)) {
+    judgement.verdict = Verdict::inconclusive;
+    judgement.reason = "theory bounds none of the values";
+    return judgement;
+  }
   judgement.verdict = within(*worst) ? Verdict::holds : Verdict::violated;
   const std::string where = (worst->label.empty() ? "" : ", " + worst->label) +
                             (worst->N > 0 ? fmt::format(", N = {}", worst->N) : "") +

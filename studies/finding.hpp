@@ -62,6 +62,8 @@ struct Finding {
     return meets(judgement.verdict, expected) ||
            std::find(also_expected.begin(), also_expected.end(), judgement.verdict) != also_expected.end();
   }
+  /// For values that theory does not bound at all: they are for the record, and no evidence.
+  void expect_no_bound() { promised = expected = Verdict::inconclusive; }
   /// The statement does not hold of the subject, expected or not.
   bool alarm() const { return !meets(judgement.verdict, promised); }
 };

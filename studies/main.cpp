@@ -153,7 +153,8 @@ int run(const std::vector<std::string>& files, RunOptions options) {
       rows.insert(rows.end(), departing.begin(), departing.end());
       if (!departing.empty()) {
         const bool failed = std::any_of(study.findings.begin(), study.findings.end(), [](const auto& finding) {
-          return finding && !finding->failure.empty() && !finding->as_expected();
+          return finding && !finding->as_expected() &&
+                 (!finding->failure.empty() || finding->judgement.verdict == Verdict::unstable);
         });
         status = std::max<int>(status, failed ? numerical_failure : departs);
       } else if (!result.interrupted) {

@@ -66,6 +66,7 @@ json series_json(const SeriesResult& result) {
                 {"dt", r.dt},
                 {"steps", r.steps},
                 {"error_linf", number(r.error_linf)},
+                {"solution_linf", number(r.solution_linf)},
                 {"error_l1", number(r.error_l1)},
                 {"error_l2", number(r.error_l2)},
                 {"seconds", r.seconds},
@@ -237,6 +238,7 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   for (const json& one : series.at("cases")) {
     const double h = real(one.at("h")), delta = real(one.at("delta"));
     record.levels.push_back({by_h ? h : std::max(h, delta), real(one.at("error_linf"))});
+    record.solutions.push_back(real(one.value("solution_linf", json(nullptr))));
     if (record.failure.empty()) record.failure = one.value("failure", "");
   }
   record.theory_order = real(theory.at("order"));

@@ -17,6 +17,7 @@ std::string json_text(const StudyResult& result, const Provenance& provenance);
 struct SeriesRecord {
   std::string study, label;
   std::vector<Level> levels;
+  std::vector<double> solutions;  ///< largest |u| of each level
   double theory_order;
   Verdict expected;
   std::string verdict;

@@ -167,17 +167,18 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
     }
     const StoredCases& stored = stores.each[s];
     run.studies[s].findings.resize(study.measurements.size());
-    const bool measured = stored.findings.size() == study.measurements.size() && study.series.empty() &&
-                          stored.findings_key == findings_key(study) && !options.fresh;
+    const bool reusable = study.series.empty() && stored.findings_key == findings_key(study) && !options.fresh;
+    bool measured = true;
     for (std::size_t i = 0; i < study.measurements.size(); ++i) {
-      if (measured) {
-        run.studies[s].findings[i] = stored.findings[i];
+      if (const auto found = stored.findings.find(i); reusable && found != stored.findings.end()) {
+        run.studies[s].findings[i] = found->second;
       } else {
         measurements.push_back({s, i});
+        measured = false;
       }
     }
     // A study of which nothing is computed keeps the origin of its numbers.
-    const bool untouched = open_cases[s] == 0 && (measured || study.measurements.empty()) && !stored.provenance.empty();
+    const bool untouched = open_cases[s] == 0 && measured && !stored.provenance.empty();
     provenance.push_back(untouched ? stored.provenance : collect_provenance(options.jobs, options.command));
   }
   std::stable_sort(jobs.begin(), jobs.end(),

@@ -23,6 +23,7 @@ constexpr const char* format = "acstudy-1";
 template <class Result, class Visit>
 void for_each_column(Result& result, Visit&& visit) {
   visit("error_linf", result.error_linf);
+  visit("solution_linf", result.solution_linf);
   visit("error_l1", result.error_l1);
   visit("error_l2", result.error_l2);
   visit("seconds", result.seconds);
@@ -339,7 +340,16 @@ Judgement judge_series(const Series& series, const std::vector<CaseResult>& resu
   } else if (const auto unstable = first_with(&CaseResult::blow_up); unstable != results.end()) {
     judgement.reason += ": " + unstable->blow_up;
   }
+  if (series.expected == Verdict::stable) {
+    for (const CaseResult& r : results) require_bounded(judgement, r.error_linf, r.solution_linf);
+  }
   return judgement;
+}
+
+void require_bounded(Judgement& judgement, double error, double solution) {
+  if (judgement.verdict == Verdict::unstable || !(error > largest_stable_error * solution)) return;
+  judgement.verdict = Verdict::unstable;
+  judgement.reason = fmt::format("an error is {:.3g}, that of a solution of {:.3g} at most", error, solution);
 }
 
 std::string findings_key(const Study& study) { return study.text + "|measurements=" + measurements_fingerprint(); }
@@ -389,7 +399,7 @@ StoredCases load_cases(const fs::path& file) {
     if (!stored.findings_key.ends_with(measurements_fingerprint())) return stored;
     const h5::Handle findings = h5::open_group(root, "findings");
     for (const std::string& name : h5::group_names(findings)) {
-      stored.findings.push_back(read_finding(h5::open_group(findings, name)));
+      stored.findings.emplace(std::stoul(name), read_finding(h5::open_group(findings, name)));
     }
   } catch (const std::exception& error) {
     throw StoreError(

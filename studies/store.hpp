@@ -58,14 +58,18 @@ std::string not_computed(const std::string& failure);
 /// count from 1.
 std::vector<std::pair<std::string, double>> named_estimates(const Judgement& judgement);
 
+/// Where nothing but stability is expected, an error of so many times the solution is `unstable`, too.
+inline constexpr double largest_stable_error = 100.0;
+void require_bounded(Judgement& judgement, double error, double solution);
+
 /// Judges a series on its completed cases.
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results);
 
 /// What a study's HDF5 file holds: case results by storage key (see `storage_key`), and where they come from.
 struct StoredCases {
   std::map<std::string, CaseResult> cases;
-  std::string findings_key;  ///< see `findings_key`
-  std::vector<Finding> findings;
+  std::string findings_key;                 ///< see `findings_key`
+  std::map<std::size_t, Finding> findings;  ///< by the number of their measurement
   Provenance provenance;
 };
 

@@ -294,7 +294,10 @@ PathChoice read_path(const Table& table) {
   if (const toml::node* const expect = table.find("expect")) {
     path.expect = read_expected(table, *expect);
   }
-  if (const toml::node* const start = table.find("start")) path.start = read_start(table, *start);
+  if (const toml::node* const start = table.find("start")) {
+    path.start = read_start(table, *start);
+    path.at_start = table.place(*start);
+  }
   if (const toml::node* const order = table.find("order")) {
     path.order = table.number("order", *order);
     if (!std::isfinite(*path.order) || *path.order < 0.0) {
@@ -451,6 +454,13 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
                 .cases = {}};
   series.stepping = time.label;
   for (const std::int64_t N : path.N) {
+    const double period = study.scene->period(), gap = path.start.smallest_gap * period / static_cast<double>(N);
+    if (period + gap == period) {
+      path.at_start.fail(
+          fmt::format("smallest_gap = {:g} is a gap of {:.3g} at N = {}, which positions near {:.3g} cannot "
+                      "hold; write a larger one",
+                      path.start.smallest_gap, gap, N, period));
+    }
     const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
     series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta, path.start));
   }

@@ -56,6 +56,7 @@ struct PathChoice {
   std::optional<Verdict> expect;
   std::optional<double> order;  ///< in place of theory's
   Start start = {};
+  Place at_start = {};
 };
 PathChoice read_path(const Table& table);
 

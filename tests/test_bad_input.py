@@ -16,6 +16,8 @@ SCHEME_TABLE = '[[scheme]]\nmodel = 1\ndivergence = "local"\nkernel = "inverse"\
 TIME_TABLE = '[time]\nintegrator = "forward-euler"\nstep = "h/4"\n'
 SWEEP = ('[study]\nname = "sweep"\nkind = "stability"\n\n[scene]\nuse = "lee-du-2019"\n\n' + SCHEME_TABLE +
          '\n[sweep]\nN = [40]\nratios = [1]\n')
+STEPS = ('[study]\nname = "steps"\nkind = "stability-map"\n\n[scene]\nuse = "lee-du-2019"\n\n' + SCHEME_TABLE +
+         '\n[stability-map]\nN = 16\nratios = [1]\ncfl = [1]\nintegrators = ["forward-euler"]\n')
 DIGITS = ('[study]\nname = "digits"\nkind = "digits"\n\n[[weights]]\nmodel = 1\nkernel = "inverse"\n\n[digits]\n'
           'ratios = [1]\n\n[scene]\nuse = "lee-du-2019"\n\n[gaps]\nN = 10\ntimes = [1]\n')
 EXTREMES = '[study]\nname = "ends"\nkind = "extremes"\n\n' + SCHEME_TABLE
@@ -296,6 +298,25 @@ STUDIES = {
     "path in a study without paths": (bad(("[sweep]", "[[@path]]\nname = 1\n\n[sweep]"), of=SWEEP),
                                       'unknown key "path" in the study; known keys: study, scene, scheme, sweep, '
                                       'printed'),
+
+    # Stability maps
+    "map of no integrator": (bad(("[stability-map]", "@[stability-map]"), ('integrators = ["forward-euler"]\n', ""),
+                                 of=STEPS),
+                             '[stability-map] has no "integrators"; write, for example, integrators = ["forward-euler", '
+                             '"backward-euler"]'),
+    "map of an integrator again": (bad(('["forward-euler"]', '["forward-euler", @"forward-euler"]'), of=STEPS),
+                                   '"forward-euler" a second time; leave it out'),
+    "map of a CFL number of zero": (bad(("cfl = [1]", "cfl = [@0]"), of=STEPS),
+                                    "cfl contains 0; every entry must be positive and finite: write cfl = [0.5, 1, 2, 4]"),
+    "map over no time": (bad(('[scene]\nuse = "lee-du-2019"', '@[scene]\nuse = "lee-du-2019"\nT = 0'), of=STEPS),
+                         "T = 0; growth over T needs time: write T = 1"),
+    "map of a control that is stable": (
+        STEPS + '[[control]]\nname = @"source off by 1 %"\nscheme = { model = 1, divergence = "local", kernel = "inverse" }\n',
+        'name = "source off by 1 %"; only controls that no step of forward Euler keeps stable belong here: SPH sum, no '
+        'viscosity, downwind'),
+    "gap below the spacing of numbers": (
+        bad((SOURCE, SOURCE + '\nstart = @{ name = "jittered", smallest_gap = 1e-20 }')),
+        "smallest_gap = 1e-20 is a gap of 3.93e-21 at N = 16, which positions near 6.28 cannot hold; write a larger one"),
 
     # Digits
     "scheme in a study of weights": (bad(("[digits]", '[[@scheme]]\nmodel = 1\n\n[digits]'), of=DIGITS),

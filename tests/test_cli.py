@@ -621,6 +621,20 @@ class Gate(ProgramTest):
         self.assertGreater(last["error_linf"], 1e5)
         self.assertEqual(self.acstudy("check", "out/tiny.json").returncode, 1)
 
+    def test_stable_is_no_error_of_many_times_the_solution(self):
+        # Beyond the bound for a few steps: too few to blow up, enough to be of no use.
+        few = edit(STUDY, ('"h/4"', '"3*h"'), ('"4*h"', '"h^2"'), (LEVELS, "[80, 120]"),
+                   ('source = "local"', 'source = "local"\nexpect = "stable"'))
+        self.run_study(few, expect=0)
+        data = self.result()
+        for case in data["series"][0]["cases"]:
+            self.assertAlmostEqual(case["solution_linf"], 1, delta=0.01)
+        data["series"][0]["cases"][1]["error_linf"] = 101.0
+        self.write("out/tiny.json", json.dumps(data))
+        checked = self.acstudy("check", "out/tiny.json")
+        self.assertEqual(checked.returncode, 1)
+        self.assertIn("an error is 101, that of a solution of 1 at most", checked.stdout)
+
     def test_each_way_to_step_is_a_series_with_its_own_expectation(self):
         moving = edit(STUDY, ('kernel = "inverse"', 'kernel = "cubic-spline"'), ('"4*h"', '"h^2"'),
                       (LEVELS, "[80, 160, 320, 640]"))

@@ -64,9 +64,9 @@ TEST_CASE("a map of a compatible scheme confirms every limit, and the gate judge
   REQUIRE(record.findings.size() == 7);
   REQUIRE(stored.findings.size() == 7);
   for (std::size_t i = 0; i < 7; ++i) {
-    const Judgement& judged = run.studies[0].findings[i]->judgement;
-    CHECK(record.findings[i].finding.judgement.reason == judged.reason);
-    CHECK(stored.findings[i].judgement.reason == judged.reason);
+    const Judgement& judged = run.studies[0].findings.at(i)->judgement;
+    CHECK(record.findings.at(i).finding.judgement.reason == judged.reason);
+    CHECK(stored.findings.at(i).judgement.reason == judged.reason);
   }
   // The runs are in the store: nothing is run again, and the findings are the same.
   const RunResult again = run_studies(studies, options, stop);

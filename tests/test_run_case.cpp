@@ -30,8 +30,8 @@ CaseResult run(const Case& c) {
   return run_case(c, stop, 1, false);
 }
 
-const std::string forward_euler = "integrator = \"forward-euler\"\nstep = ",
-                  backward_euler = "integrator = \"backward-euler\"\nstep = ",
+const std::string by_forward_euler = "integrator = \"forward-euler\"\nstep = ",
+                  by_backward_euler = "integrator = \"backward-euler\"\nstep = ",
                   sdirk2 = "integrator = \"sdirk2\"\nstep = ";
 const std::string near_coincident = "start = { name = \"jittered\", smallest_gap = 1e-4, seed = 3 }\n";
 
@@ -65,7 +65,7 @@ TEST_CASE("starts have the gaps that they promise", "[start]") {
 
 TEST_CASE("steps that follow the lemma stay at the safety factor, and reach T", "[steps]") {
   for (const std::string scheme : {"model = 1\nkernel = \"inverse\"", "model = 2\nkernel = \"cubic-spline\""}) {
-    const Case c = cases(forward_euler + "\"cfl\"\nsafety = 0.7", "4*h", "40", "", scheme).front();
+    const Case c = cases(by_forward_euler + "\"cfl\"\nsafety = 0.7", "4*h", "40", "", scheme).front();
     const CaseResult result = run(c);
     REQUIRE(result.blow_up.empty());
     CHECK(result.against_bound.largest <= 0.7 + 1e-12);
@@ -74,14 +74,42 @@ TEST_CASE("steps that follow the lemma stay at the safety factor, and reach T", 
     // The gaps close by the factor e within T = 1, and the steps with them.
     CHECK(result.dt / result.dt_smallest == Approx(std::exp(1.0)).epsilon(0.15));
     CHECK(result.steps > c.steps);
-    const Case equal = cases(forward_euler + "\"h/16\"", "4*h", "40", "", scheme).front();
+    const Case equal = cases(by_forward_euler + "\"h/16\"", "4*h", "40", "", scheme).front();
     CHECK(result.error_linf == Approx(run(equal).error_linf).epsilon(0.3));
   }
 }
 
+TEST_CASE("steps keep the bound at later stages too, where gaps close", "[steps]") {
+  for (const std::string integrator : {"ssprk2", "ssprk3"}) {
+    for (const std::string bound : {"", "\nbound = \"rows\""}) {
+      const Case c = cases("integrator = \"" + integrator + "\"\nstep = \"cfl\"" + bound, "0.5*h", "10", "",
+                           "model = 1\nkernel = \"inverse\"", "use = \"lee-du-2019\"\nT = 3")
+                         .front();
+      const CaseResult result = run(c);
+      CAPTURE(integrator, bound, result.against_bound.largest);
+      CHECK(result.blow_up.empty());
+      if (bound.empty()) {
+        CHECK(result.against_bound.largest <= 0.9 + 1e-12);
+        CHECK(result.against_bound.largest > 0.7);
+      }
+    }
+  }
+}
+
+TEST_CASE("a run that fails keeps what was said of its steps", "[steps]") {
+  // Gaps close until positions cannot tell particles apart.
+  const Case c = cases(by_forward_euler + "\"h\"", "0.5*h", "20", "", "model = 1\nkernel = \"inverse\"",
+                       "period = \"2*pi\"\nT = 40\nc = \"cos(2*x)/3\"\nb = \"sin(x)\"\nu = \"0*x\"")
+                     .front();
+  const CaseResult result = run(c);
+  CAPTURE(result.failure, result.blow_up);
+  CHECK((!result.failure.empty() || !result.blow_up.empty()));
+  CHECK(result.against_bound.first_step > 0);
+}
+
 TEST_CASE("a bound by the rows allows larger steps where the horizon is above the gaps, and is stable", "[steps]") {
-  const auto lemma = run(cases(forward_euler + "\"cfl\"", "4*h", "40", near_coincident).front());
-  const auto rows = run(cases(forward_euler + "\"cfl\"\nbound = \"rows\"", "4*h", "40", near_coincident).front());
+  const auto lemma = run(cases(by_forward_euler + "\"cfl\"", "4*h", "40", near_coincident).front());
+  const auto rows = run(cases(by_forward_euler + "\"cfl\"\nbound = \"rows\"", "4*h", "40", near_coincident).front());
   REQUIRE(rows.blow_up.empty());
   CHECK(rows.steps * 1000 < lemma.steps);
   CHECK(rows.error_linf == Approx(lemma.error_linf).epsilon(0.3));
@@ -92,7 +120,7 @@ TEST_CASE("a bound by the rows allows larger steps where the horizon is above th
 
 TEST_CASE("steps beyond the bound are reported: first step, time, place and factor", "[steps]") {
   // Gaps close like e^-t at x = pi; dt = h/4 is within h_min / (4/3) until e^-t = 1/3.
-  const CaseResult result = run(cases(forward_euler + "\"h/4\"", "4*h", "200", "", "model = 1\nkernel = \"inverse\"",
+  const CaseResult result = run(cases(by_forward_euler + "\"h/4\"", "4*h", "200", "", "model = 1\nkernel = \"inverse\"",
                                       "use = \"lee-du-2019\"\nT = 2")
                                     .front());
   REQUIRE(result.blow_up.empty());
@@ -102,8 +130,8 @@ TEST_CASE("steps beyond the bound are reported: first step, time, place and fact
   CHECK(result.against_bound.first_place == Approx(3.14159).margin(0.05));
   CHECK(result.against_bound.largest == Approx(std::exp(2.0) / 3.0).epsilon(0.02));
   // Within the bound nothing is reported; implicit steps have none.
-  CHECK(run(cases(forward_euler + "\"h/4\"", "4*h", "200").front()).against_bound.first_step == 0);
-  CHECK(run(cases(backward_euler + "\"h\"", "4*h").front()).against_bound.largest == 0.0);
+  CHECK(run(cases(by_forward_euler + "\"h/4\"", "4*h", "200").front()).against_bound.first_step == 0);
+  CHECK(run(cases(by_backward_euler + "\"h\"", "4*h").front()).against_bound.largest == 0.0);
 }
 
 TEST_CASE("implicit integrators have their order in time", "[implicit][steps]") {
@@ -113,7 +141,7 @@ TEST_CASE("implicit integrators have their order in time", "[implicit][steps]") 
   for (const auto& [scheme, scene, delta] : {std::tuple{"model = 1\nkernel = \"cubic-spline\"", standing, "3*h"},
                                              std::tuple{"model = 2\nkernel = \"cubic-spline\"", standing, "3*h"},
                                              std::tuple{"model = 2\nkernel = \"cubic-spline\"", moving, "1e-3*h"}}) {
-    for (const auto& [integrator, order] : {std::pair{backward_euler, 1.0}, std::pair{sdirk2, 2.0}}) {
+    for (const auto& [integrator, order] : {std::pair{by_backward_euler, 1.0}, std::pair{sdirk2, 2.0}}) {
       std::vector<std::vector<double>> u;
       for (const char* const step : {"1/40", "1/80", "1/160", "1/320"}) {
         const CaseResult result = run(cases(integrator + "\"" + step + "\"", delta, "60", "", scheme, scene).front());
@@ -136,9 +164,9 @@ TEST_CASE("implicit steps go on where explicit ones of the same length blow up",
   for (const std::string scheme : {"model = 1\nkernel = \"inverse\"", "model = 2\nkernel = \"cubic-spline\""}) {
     // The horizon is below the smallest gap, so that the scheme sees it.
     const std::string below = "1e-5*h";
-    const CaseResult within = run(cases(backward_euler + "\"h/4\"", below, "40", near_coincident, scheme).front());
+    const CaseResult within = run(cases(by_backward_euler + "\"h/4\"", below, "40", near_coincident, scheme).front());
     const CaseResult second = run(cases(sdirk2 + "\"h/4\"", below, "40", near_coincident, scheme).front());
-    const CaseResult beyond = run(cases(forward_euler + "\"h/4\"", below, "40", near_coincident, scheme).front());
+    const CaseResult beyond = run(cases(by_forward_euler + "\"h/4\"", below, "40", near_coincident, scheme).front());
     CHECK(within.error_linf < 0.5);
     CHECK(second.error_linf < 0.5);
     CHECK(!beyond.blow_up.empty());
@@ -146,7 +174,7 @@ TEST_CASE("implicit steps go on where explicit ones of the same length blow up",
 }
 
 TEST_CASE("a run that blows up stops early, says where, and keeps its last finite state", "[unstable]") {
-  const Case c = cases(forward_euler + "\"3*h\"", "1e-3*h", "640").front();
+  const Case c = cases(by_forward_euler + "\"3*h\"", "1e-3*h", "640").front();
   const CaseResult result = run(c);
   CAPTURE(result.blow_up);
   REQUIRE(!result.blow_up.empty());

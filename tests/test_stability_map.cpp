@@ -38,7 +38,6 @@ Subject subject(int model, KernelChoice kernel, Arrangement arrangement, std::sh
 }
 
 const KernelChoice inverse{"inverse"}, spline{"cubic-spline"}, steep{"power", 0.9}, singular{"power", 1.5};
-const Integrator& forward_euler = integrators[0];
 const Integrator& backward_euler = integrators[3];
 const Integrator& sdirk2 = integrators[4];
 
@@ -225,6 +224,41 @@ TEST_CASE("implicit limits: none of backward Euler, 1 + sqrt(2) of SDIRK2", "[st
   const Subject upwind = subject(1, inverse, Arrangement::uniform, named("constant-velocity"));
   const Finding second = sharp_limit(upwind, sdirk2, {200, {0.5}, {}}, Measure::norm);
   CHECK(second.points[0].value == Approx(1.0 + std::sqrt(2.0)).epsilon(1e-3));
+}
+
+TEST_CASE("values that theory does not bound are no evidence", "[stability-map]") {
+  const Subject one = subject(1, inverse, Arrangement::uniform, named("constant-velocity"));
+  const Finding beyond = growth_curve(one, forward_euler, 32, 0.5, 2.0);
+  CHECK(beyond.judgement.verdict == Verdict::inconclusive);
+  CHECK(beyond.promised == Verdict::inconclusive);
+  CHECK(beyond.as_expected());
+  // A finding that promises something and bounds nothing departs.
+  Finding empty = beyond;
+  empty.promised = empty.expected = Verdict::holds;
+  judge(empty);
+  CHECK(!empty.as_expected());
+}
+
+TEST_CASE("positivity on moving particles goes by the sign of c - b", "[stability-map]") {
+  const auto scene = std::make_shared<const Scene>(SceneText{
+      .name = "", .period = "2*pi", .T = "1", .c = "2", .b = "sin(x)/4", .u = "sin(x)", .flow = std::nullopt});
+  for (const bool nonlocal : {false, true}) {
+    const Subject one = subject(1, spline, Arrangement::uniform, scene, nonlocal);
+    const Finding backward = smallest_entry(one, backward_euler, {32, {0.5, 2.5}, {1.0, 20.0, 1000.0}});
+    CHECK(backward.expected == Verdict::holds);
+    CHECK(backward.judgement.verdict == Verdict::holds);
+    CHECK(std::isfinite(backward.points[1].lower));
+    CHECK(std::isinf(backward.points[2].lower));  // dt ||b'|| > 1
+    CHECK(smallest_entry(one, forward_euler, {32, {0.5}, {0.5}}).promised == Verdict::inconclusive);
+  }
+}
+
+TEST_CASE("Lemma 3.3 as printed fails on jittered particles at a horizon of two spacings", "[stability-map]") {
+  Subject one = subject(2, spline, Arrangement::jittered, named("lee-du-2019"));
+  one.seeds = 3;
+  const Finding finding = sharp_limit(one, forward_euler, {48, {2.0}, {}}, Measure::norm);
+  CHECK(finding.judgement.verdict == Verdict::holds);
+  CHECK(finding.points[0].value < 0.98);
 }
 
 TEST_CASE("steps, growth and spectral radius keep their bounds on every arrangement", "[stability-map]") {

@@ -19,11 +19,13 @@ constexpr double round_off = 1e-11;
 /// What the bounds on a subject's steps are made of.
 struct Constants {
   double C;      ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant
+  double b_1;    ///< ||b'||
   double speed;  ///< max |c_hat|
 
   explicit Constants(const Subject& subject) : speed(subject.scene->max_relative_velocity()) {
     const FieldBounds fields = field_bounds(*subject.scene, 0.0);
     C = fields.c_hat_1 + fields.b_1;
+    b_1 = fields.b_1;
   }
 };
 
@@ -85,6 +87,14 @@ std::string step_claim(const Integrator& integrator) {
                      radius == 1.0 ? "" : "1 + sqrt(2) times ");
 }
 
+bool is_bounded(const Point& point) { return std::isfinite(point.lower) || std::isfinite(point.upper); }
+
+/// Judges a finding, if theory bounds any of its values.
+void settle(Finding& finding) {
+  if (std::none_of(finding.points.begin(), finding.points.end(), is_bounded)) finding.expect_no_bound();
+  judge(finding);
+}
+
 std::string lemma_of(const Subject& subject) { return subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3"; }
 
 Finding finding_on(const Subject& subject, const Integrator& integrator, const std::string& statement,
@@ -134,25 +144,26 @@ void product_along_motion(const Subject& subject, const Integrator& integrator, 
   }
 }
 
-/// The worst of the arrangement's particles: `measure(frozen)` returns value and bound.
+struct Measured {
+  double value, bound;
+};
+
+/// The worst of the arrangement's particles, which is the one nearest to its bound or beyond; where none is bounded,
+/// the largest.
 template <class Take>
 Point worst_of(const Subject& subject, const Constants& constants, std::int64_t N, double delta, Take&& take) {
-  const double h = subject.scene->period() / static_cast<double>(N);
-  Point worst{.N = N, .h = h, .delta = delta, .value = NAN};
+  Point worst{.N = N, .h = subject.scene->period() / static_cast<double>(N), .delta = delta, .value = NAN};
   for (const std::vector<double>& x : subject.positions(N)) {
-    const auto [value, bound] = take(Frozen(subject, constants, x, delta));
-    if (std::isnan(worst.value) || value / bound > worst.value / worst.upper ||
-        (std::isinf(bound) && value > worst.value)) {
-      worst.value = value;
-      worst.upper = bound;
+    const Measured now = take(Frozen(subject, constants, x, delta));
+    const bool first = std::isnan(worst.value), bounded = std::isfinite(now.bound), was = std::isfinite(worst.upper);
+    if (first || (bounded && !was) ||
+        (bounded == was && now.value / (was ? now.bound : 1.0) > worst.value / (was ? worst.upper : 1.0))) {
+      worst.value = now.value;
+      worst.upper = now.bound;
     }
   }
   return worst;
 }
-
-struct Measured {
-  double value, bound;
-};
 
 /// Measures steps on frozen particles; eigenvalues are computed once for all steps.
 class FrozenMeter {
@@ -173,14 +184,35 @@ class FrozenMeter {
   Eigen::VectorXcd eigenvalues_;
 };
 
-/// Whether theory says that no entry of a step is negative; see smallest_entry. For SDIRK2 it does where a step is the
-/// absolutely monotone function of a matrix that forward Euler keeps positive.
-bool entries_are_promised(const Subject& subject, const Integrator& integrator, const Frozen& frozen, double C,
-                          double dt) {
+/// The sign of c_hat: +1 or -1 where it is the same everywhere, else 0.
+int sign_of_relative_velocity(const Scene& scene) {
+  const std::vector<double> x = uniform_positions(4096, scene.period());
+  std::vector<double> c_hat(x.size()), b(x.size(), 0.0);
+  scene.c(x, c_hat);
+  if (!scene.standing()) scene.b(x, b);
+  for (std::size_t j = 0; j < x.size(); ++j) c_hat[j] -= b[j];
+  const auto [lowest, highest] = std::minmax_element(c_hat.begin(), c_hat.end());
+  return *lowest > 0.0 ? 1 : *highest < 0.0 ? -1 : 0;
+}
+
+/// Whether theory says that no entry of a step is negative; see smallest_entry.
+bool entries_are_promised(const Subject& subject, const Integrator& integrator, const Frozen& frozen,
+                          const Constants& constants, double dt) {
   const double radius = monotonicity_radius(integrator);
-  const bool within = frozen.rows > 0.0 && dt <= radius * frozen.rows * (1.0 + 1e-12);
-  if (subject.scheme.model == 1) return within;
-  return within && (std::isinf(radius) ? C * dt < 1.0 : C == 0.0);
+  const bool any_step = std::isinf(radius), within = frozen.rows > 0.0 && dt <= radius * frozen.rows * (1.0 + 1e-12);
+  if (subject.scheme.model == 2) return within && (any_step ? constants.C * dt < 1.0 : constants.C == 0.0);
+  return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
+}
+
+std::string entries_claim(const Subject& subject, const Integrator& integrator) {
+  const std::string condition = subject.scheme.model == 1 ? "while c - b keeps its sign" : "at constant velocity";
+  const double radius = monotonicity_radius(integrator);
+  if (std::isinf(radius)) {
+    return subject.scheme.model == 1 ? "an M-matrix at any step while c - b keeps its sign and dt ||b'|| < 1"
+                                     : "an M-matrix while C dt < 1";
+  }
+  return fmt::format("no entry of a step is negative up to {}the condition of the rows, {}",
+                     radius == 1.0 ? "" : "1 + sqrt(2) times ", condition);
 }
 
 }  // namespace
@@ -229,7 +261,7 @@ Finding stability_map(const Subject& subject, const Integrator& integrator, cons
       finding.points.push_back(point);
     }
   }
-  judge(finding);
+  settle(finding);
   return finding;
 }
 
@@ -237,8 +269,8 @@ Finding sharp_limit(const Subject& subject, const Integrator& integrator, const 
                     double highest) {
   const Constants constants(subject);
   const double C = constants.C;
-  const bool exact = C == 0.0 && measure == Measure::norm && &integrator == &integrators[0] &&
-                     subject.arrangement == Arrangement::uniform && subject.scheme.control.empty();
+  const bool exact =
+      C == 0.0 && measure == Measure::norm && integrator.name == forward_euler.name && subject.scheme.control.empty();
   const bool second = subject.scheme.model == 2;
   Finding finding = finding_on(
       subject, integrator, measure == Measure::norm ? "sharp in the max norm" : "sharp in the spectral radius",
@@ -271,15 +303,18 @@ Finding sharp_limit(const Subject& subject, const Integrator& integrator, const 
       }
       const double promised = frozen.rows > 0.0 ? std::min(monotonicity_radius(integrator) * frozen.rows, pole) : 0.0;
       const double least = std::min(promised / frozen.lemma, highest);
-      if (std::isnan(worst.value) || low - least < worst.value - worst.lower) {
+      const double lower = least * (1.0 - 1e-6), upper = exact ? least * (1.0 + 1e-6) : unbounded;
+      // The smallest limit, unless another one is not within its bounds.
+      const bool within = lower <= low && low <= upper, was = worst.lower <= worst.value && worst.value <= worst.upper;
+      if (std::isnan(worst.value) || (was && (!within || low < worst.value))) {
         worst.value = low;
-        worst.lower = least * (1.0 - 1e-6);
-        if (exact) worst.upper = least * (1.0 + 1e-6);
+        worst.lower = lower;
+        worst.upper = upper;
       }
     }
     finding.points.push_back(worst);
   }
-  judge(finding);
+  settle(finding);
   return finding;
 }
 
@@ -308,39 +343,22 @@ Finding growth_curve(const Subject& subject, const Integrator& integrator, std::
       product = (S * product).eval();
     }
   }
-  // Beyond the condition a control has nothing to violate.
-  const auto bounded = [](const Point& point) { return point.upper < largest_norm; };
-  if (std::none_of(finding.points.begin(), finding.points.end(), bounded)) finding.expected = finding.promised;
-  judge(finding);
+  settle(finding);
   return finding;
 }
 
 Finding smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid) {
   const Scene& scene = *subject.scene;
   const Constants constants(subject);
-  const double C = constants.C;
-  const std::vector<double> x = uniform_positions(4096, scene.period());
-  std::vector<double> c_hat(x.size()), b(x.size(), 0.0);
-  scene.c(x, c_hat);
-  if (!scene.standing()) scene.b(x, b);
-  for (std::size_t j = 0; j < x.size(); ++j) c_hat[j] -= b[j];
-  const auto [lowest, highest] = std::minmax_element(c_hat.begin(), c_hat.end());
-  // Of Model I with velocities of both signs positivity is demanded all the same, and expected to fail.
-  const bool one_sign = scene.standing() && (*lowest > 0.0 || *highest < 0.0);
-
-  Finding finding = finding_on(subject, integrator, "positivity",
-                               integrator.implicit() ? "an M-matrix: no entry of a step is negative, at any CFL number"
-                                                     : "no entry of a step is negative within the condition",
-                               "smallest entry of a step");
+  Finding finding =
+      finding_on(subject, integrator, "positivity", entries_claim(subject, integrator), "smallest entry of a step");
   finding.variable = "CFL number";
-  if (subject.scheme.model == 1 && !one_sign) {
+  if (subject.scheme.model == 1 && sign_of_relative_velocity(scene) == 0) {
     finding.expected = Verdict::violated;
     finding.remark =
-        scene.standing()
-            ? "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; "
-              "their entries are negative at any step"
-            : "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; "
-              "their entries are negative at any step, on moving particles too";
+        "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; their entries "
+        "are "
+        "negative at any step";
   }
   for (const double ratio : grid.ratios) {
     const double delta = ratio * scene.period() / static_cast<double>(grid.N);
@@ -350,8 +368,10 @@ Finding smallest_entry(const Subject& subject, const Integrator& integrator, con
         const Frozen frozen(subject, constants, positions, delta);
         const double dt = cfl * frozen.lemma;
         const double value = step_operator(integrator, frozen.R, dt).minCoeff();
-        const bool promised = entries_are_promised(subject, integrator, frozen, C, dt);
-        if (value < worst.value) {
+        const bool promised = entries_are_promised(subject, integrator, frozen, constants, dt);
+        // What is promised counts before what is not.
+        const bool was = std::isfinite(worst.lower);
+        if ((promised && !was) || (promised == was && value < worst.value)) {
           worst.value = value;
           worst.lower = promised ? -round_off : -unbounded;
         }
@@ -359,7 +379,7 @@ Finding smallest_entry(const Subject& subject, const Integrator& integrator, con
       finding.points.push_back(worst);
     }
   }
-  judge(finding);
+  settle(finding);
   return finding;
 }
 

@@ -50,9 +50,10 @@ Finding growth_curve(const Subject& subject, const Integrator& integrator, std::
 
 /// Smallest entry of a step at each CFL number and horizon: not negative where theory says so.
 ///
-/// Backward Euler: I - dt R is an M-matrix at any step where c_hat keeps its sign on standing particles (Model I), or
-/// while C dt < 1 (Model II). Forward Euler: within what the rows need, where c_hat keeps its sign on standing
-/// particles (Model I) or is constant (Model II).
+/// Backward Euler: I - dt R is an M-matrix where c_hat keeps its sign while dt ||b'|| < 1 (Model I), or while C dt < 1
+/// (Model II). The other integrators: up to `monotonicity_radius` times what the rows need, where c_hat keeps its sign
+/// on standing particles (Model I) or is constant (Model II). Of Model I with velocities of both signs the same is
+/// demanded, and expected to fail.
 Finding smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid);
 
 }  // namespace acstudy

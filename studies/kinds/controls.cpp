@@ -151,6 +151,9 @@ Expectations read_expectations(const Table& table, const std::vector<Column>& co
 void read_controls(const Table& root, Study& study) {
   root.allow({"study", "scene", "time", "source", "path", "consistency", "scheme", "control"});
   const Stepping time = read_problem(root, study);
+  if (time.rule.bound == StepRule::Bound::rows) {
+    time.at_step.fail("bound = \"rows\"; a control does not say what its rows need: leave bound out");
+  }
   if (time.integrator->implicit()) {
     root.place(*root.find("time"))
         .fail(fmt::format("integrator = \"{}\"; a control has no matrix to solve with: write an explicit one",

@@ -37,6 +37,17 @@ constexpr double resolved = 4.0;
 using Points = std::vector<Point>;
 using Results = std::vector<SeriesResult>;
 
+/// How the first run that blew up did so, if one did.
+std::string first_blow_up(const Plane& plane, const Results& results) {
+  for (std::size_t d = 0; d < plane.delta.size(); ++d) {
+    for (std::size_t i = 0; i < plane.N.size(); ++i) {
+      const std::string& how = results[plane.first + d].results[i].blow_up;
+      if (!how.empty()) return fmt::format("N = {}, delta = {:g}: {}", plane.N[i], plane.delta[d], how);
+    }
+  }
+  return {};
+}
+
 /// h -> 0 at a horizon.
 Points along_h(const Plane& plane, const Results& results, std::size_t d) {
   Points points;
@@ -162,6 +173,7 @@ void read_map(const Table& root, Study& study) {
         study.measurements.push_back({name, [prepared = std::move(finding), plane, points](const Results& results) {
                                         Finding measured = prepared;
                                         measured.points = points(plane, results);
+                                        measured.remark = first_blow_up(plane, results);
                                         judge(measured);
                                         return measured;
                                       }});

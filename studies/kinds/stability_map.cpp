@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "studies/control_choice.hpp"
 #include "studies/kinds/kinds.hpp"
@@ -38,6 +39,8 @@ StabilityGrid read_grid(const Table& table, const Scene& scene) {
   return grid;
 }
 
+constexpr std::array unstable_controls = {"SPH sum", "no viscosity", "downwind"};
+
 /// [growth] ratio and cfl: the curves of growth in time.
 struct Curves {
   double ratio;
@@ -62,18 +65,27 @@ void read_stability_map(const Table& root, Study& study) {
   const StabilityGrid grid = read_grid(table, scene);
   const std::vector<const Integrator*> chosen = read_integrators(table);
   std::vector<Subject> subjects = read_subjects(root, study.scene);
-  for (Subject& subject : subjects) {
-    subject.seeds = 1;
-    if (subject.mu == 0.0 && subject.scheme.model == 2) {
-      root.place().fail("a [[scheme]] with mu = 0 has no CFL number; give it a viscosity bound");
-    }
+  if (scene.T() == 0.0) {
+    root.place(*root.find("scene")).fail("T = 0; growth over T needs time: write T = 1");
   }
+  const auto require_viscosity = [](const SchemeChoice& scheme, double mu, const Place& at) {
+    if (scheme.model == 2 && mu == 0.0) at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
+  };
+  for (const Subject& subject : subjects)
+    require_viscosity(subject.scheme, subject.mu, root.place(*root.find("scheme")));
   std::vector<Subject> controls;
   if (root.find("control") != nullptr) {
     for (const Table& control : root.array_of_tables("control")) {
       control.allow({"name", "scheme"});
       const SchemeEntry entry = read_control(control, scene);
-      controls.push_back({entry.scheme, entry.mu, study.scene, Arrangement::uniform, 1});
+      if (std::find(unstable_controls.begin(), unstable_controls.end(), entry.scheme.control) ==
+          unstable_controls.end()) {
+        control.place(*control.find("name"))
+            .fail(fmt::format("name = \"{}\"; only controls that no step of forward Euler keeps stable belong here: {}",
+                              entry.scheme.control, fmt::join(unstable_controls, ", ")));
+      }
+      require_viscosity(entry.scheme, entry.mu, control.place());
+      controls.push_back({entry.scheme, entry.mu, study.scene, Arrangement::uniform});
     }
   }
 
@@ -101,8 +113,8 @@ void read_stability_map(const Table& root, Study& study) {
   for (const Subject& subject : subjects) {
     for (const Integrator* const integrator : chosen) examine(subject, *integrator);
   }
-  // Controls are unstable with forward Euler; other integrators make up for some of it.
-  for (const Subject& subject : controls) examine(subject, integrators[0]);
+  // Other integrators make up for some of what forward Euler does to a control.
+  for (const Subject& subject : controls) examine(subject, forward_euler);
 
   if (root.find("growth") == nullptr) return;
   const Curves curves = read_curves(root.sub_table("growth"), scene, grid.N);
@@ -116,7 +128,7 @@ void read_stability_map(const Table& root, Study& study) {
     if (subject.arrangement != Arrangement::uniform) continue;
     for (const Integrator* const integrator : chosen) draw(subject, *integrator);
   }
-  for (const Subject& subject : controls) draw(subject, integrators[0]);
+  for (const Subject& subject : controls) draw(subject, forward_euler);
 }
 
 }  // namespace acstudy

@@ -176,6 +176,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   PeriodicArray u(count);
   scene.u(motion.at(0.0), 0.0, u.values());
   GrowthWatch growth(u.values());
+  const double solution_at_first = max_norm({u.values().begin(), u.values().end()});
   double t = 0.0;
 
   BoundWatch watch;
@@ -219,7 +220,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   result.u.assign(u.values().begin(), u.values().end());
   result.u_exact.resize(count);
   scene.u(x, end, result.u_exact);
-  result.solution_linf = max_norm(result.u_exact);
+  result.solution_linf = std::max(solution_at_first, max_norm(result.u_exact));
   const Errors errors = errors_of(scene, result.x, result.u, result.u_exact);
   if (to_the_end) {
     result.error_linf = errors.linf;

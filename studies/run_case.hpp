@@ -37,7 +37,7 @@ struct CaseResult {
   std::string blow_up;     ///< how the solution left all bounds, if it did; the errors are then NaN
   std::string failure;     ///< why there is no solution for another reason, if so; the errors are then NaN
   double error_linf = 0.0;
-  double solution_linf = 0.0;             ///< largest exact |u| at the particles then
+  double solution_linf = 0.0;             ///< largest exact |u| at the particles, at first or at the end
   double error_l1 = 0.0, error_l2 = 0.0;  ///< weighted by cell width, divided by the period
 
   double seconds = 0.0;                          ///< wall time of the whole time loop, median over the repeats

@@ -9,16 +9,10 @@
 #include "studies/operator.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
+#include "tests/named_scene.hpp"
 
 namespace acstudy {
 namespace {
-
-std::shared_ptr<const Scene> named(const std::string& name) {
-  for (const SceneText& text : named_scenes()) {
-    if (text.name == name) return std::make_shared<const Scene>(text);
-  }
-  throw std::logic_error("no scene " + name);
-}
 
 /// The matrix as it multiplies.
 std::vector<double> product(const RateMatrix& R, const std::vector<double>& u) {
@@ -32,7 +26,7 @@ std::vector<double> product(const RateMatrix& R, const std::vector<double>& u) {
 template <class Check>
 void on_every_scheme(Check check) {
   for (const char* const name : {"lee-du-2019", "standing-variable-velocity"}) {
-    const auto scene = named(name);
+    const auto scene = test::named_scene(name);
     for (const int model : {1, 2}) {
       for (const bool nonlocal : {false, true}) {
         for (const KernelChoice& kernel : {KernelChoice{"cubic-spline"}, KernelChoice{"power", 0.5}}) {

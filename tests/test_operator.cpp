@@ -7,20 +7,14 @@
 #include "studies/operator.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
+#include "tests/named_scene.hpp"
 
 namespace acstudy {
 namespace {
 
-std::shared_ptr<const Scene> scene(const std::string& name) {
-  for (const SceneText& text : named_scenes()) {
-    if (text.name == name) return std::make_shared<const Scene>(text);
-  }
-  throw std::logic_error("no scene " + name);
-}
-
 Subject subject(int model, KernelChoice kernel, Arrangement arrangement, const std::string& name = "lee-du-2019",
                 bool nonlocal = false) {
-  const auto on = scene(name);
+  const auto on = test::named_scene(name);
   return {{.model = model, .nonlocal_divergence = nonlocal, .kernel = std::move(kernel), .mu = {}, .control = {}},
           on->max_relative_velocity(),
           on,
@@ -107,7 +101,7 @@ TEST_CASE("the norm of a step says which operator it is of", "[operator]") {
 
 TEST_CASE("bounds of a scene's fields are those of its formulas", "[operator]") {
   // c - b = cos(2x)/3 - sin(x), b = sin(x), u = cos(x - t)
-  const FieldBounds bounds = field_bounds(*scene("lee-du-2019"), 0.3);
+  const FieldBounds bounds = field_bounds(*test::named_scene("lee-du-2019"), 0.3);
   CHECK(bounds.c_hat == Approx(1.001 * 4.0 / 3.0).epsilon(1e-5));
   CHECK(bounds.c_hat_2 == Approx(1.001 * 7.0 / 3.0).epsilon(1e-5));
   for (const double one : {bounds.b_1, bounds.b_2, bounds.u, bounds.u_1, bounds.u_2, bounds.u_3}) {

@@ -11,16 +11,10 @@
 #include "studies/control_choice.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
+#include "tests/named_scene.hpp"
 
 namespace acstudy {
 namespace {
-
-std::shared_ptr<const Scene> named(const std::string& name) {
-  for (const SceneText& text : named_scenes()) {
-    if (text.name == name) return std::make_shared<const Scene>(text);
-  }
-  throw std::logic_error("no scene " + name);
-}
 
 std::shared_ptr<const Scene> with_velocity(const std::string& c) {
   return std::make_shared<const Scene>(SceneText{
@@ -62,7 +56,7 @@ struct System {
 
 TEST_CASE("the step operator is what integrate does to unit vectors", "[stability-map]") {
   for (const int model : {1, 2}) {
-    const Subject one = subject(model, spline, Arrangement::moved, named("lee-du-2019"), true);
+    const Subject one = subject(model, spline, Arrangement::moved, test::named_scene("lee-du-2019"), true);
     const std::vector<double> x = one.positions(20).front();
     PlacedScheme placed(one.scheme, *one.scene, one.mu, x, 0.9);
     const SparseMatrix R = sparse_rates(one, placed);
@@ -84,7 +78,7 @@ TEST_CASE("the step operator is what integrate does to unit vectors", "[stabilit
 }
 
 TEST_CASE("a control's rates are found by probing", "[stability-map]") {
-  Subject one = subject(2, spline, Arrangement::uniform, named("constant-velocity"));
+  Subject one = subject(2, spline, Arrangement::uniform, test::named_scene("constant-velocity"));
   one.scheme.control = "SPH sum";
   PlacedScheme placed(one.scheme, *one.scene, one.mu, one.positions(20).front(), 0.13);
   const auto u = test::irregular_values(20, 4);
@@ -93,7 +87,7 @@ TEST_CASE("a control's rates are found by probing", "[stability-map]") {
 }
 
 TEST_CASE("the spectral radius by the stability function is that of the step", "[stability-map]") {
-  const Subject one = subject(2, steep, Arrangement::jittered, named("standing-variable-velocity"));
+  const Subject one = subject(2, steep, Arrangement::jittered, test::named_scene("standing-variable-velocity"));
   PlacedScheme placed(one.scheme, *one.scene, one.mu, one.positions(24).front(), 0.7);
   const SparseMatrix R = sparse_rates(one, placed);
   const Eigen::VectorXcd eigenvalues = Eigen::MatrixXd(R).eigenvalues();
@@ -108,7 +102,7 @@ TEST_CASE("the spectral radius by the stability function is that of the step", "
 
 TEST_CASE("eigenvalues on uniform standing particles are the symbols of the sum", "[stability-map]") {
   constexpr int N = 30;
-  const Subject one = subject(1, inverse, Arrangement::uniform, named("constant-velocity"));
+  const Subject one = subject(1, inverse, Arrangement::uniform, test::named_scene("constant-velocity"));
   PlacedScheme placed(one.scheme, *one.scene, 0.0, one.positions(N).front(), 4.5 / N);
   const Stencil stencil = placed.scheme().stencil(0);
   Eigen::VectorXcd symbols(N);
@@ -141,7 +135,7 @@ TEST_CASE("Lemma 2.4 is sharp row by row: bisection finds c dt sum W_k = 1 for e
           "[stability-map]") {
   const StabilityGrid grid{24, {0.01, 0.5, 1.0, 1.5, 2.7, 6.0, 10.0}, {}};
   for (const KernelChoice& kernel : {inverse, spline, singular, KernelChoice{"power", -1.0}}) {
-    const Subject one = subject(1, kernel, Arrangement::uniform, named("constant-velocity"));
+    const Subject one = subject(1, kernel, Arrangement::uniform, test::named_scene("constant-velocity"));
     const Finding finding = sharp_limit(one, forward_euler, grid, Measure::norm);
     CAPTURE(kernel.label());
     CHECK(finding.judgement.verdict == Verdict::holds);
@@ -167,7 +161,7 @@ TEST_CASE("Lemma 2.4 is sharp row by row: bisection finds c dt sum W_k = 1 for e
 TEST_CASE("Lemma 3.3: a step is monotone exactly under two conditions on signs", "[stability-map]") {
   const StabilityGrid grid{24, {0.5, 1.0, 2.5, 4.0, 8.0}, {}};
   for (const KernelChoice& kernel : {spline, steep, KernelChoice{"power", 0.0}}) {
-    Subject one = subject(2, kernel, Arrangement::uniform, named("constant-velocity"));
+    Subject one = subject(2, kernel, Arrangement::uniform, test::named_scene("constant-velocity"));
     CAPTURE(kernel.label());
     for (const double mu : {1.0, 1.7}) {
       one.mu = mu;
@@ -189,7 +183,7 @@ TEST_CASE("Lemma 3.3: a step is monotone exactly under two conditions on signs",
 }
 
 TEST_CASE("a wrong limit is noticed", "[stability-map]") {
-  Subject one = subject(1, inverse, Arrangement::uniform, named("constant-velocity"));
+  Subject one = subject(1, inverse, Arrangement::uniform, test::named_scene("constant-velocity"));
   const StabilityGrid grid{24, {2.5}, {}};
   Finding finding = sharp_limit(one, forward_euler, grid, Measure::norm);
   for (const double factor : {1.0 - 3e-6, 1.0 + 3e-6}) {
@@ -199,7 +193,7 @@ TEST_CASE("a wrong limit is noticed", "[stability-map]") {
     CHECK(shifted.judgement.verdict == Verdict::violated);
   }
   // Of the SPH sum no step is stable.
-  one = subject(2, spline, Arrangement::uniform, named("constant-velocity"));
+  one = subject(2, spline, Arrangement::uniform, test::named_scene("constant-velocity"));
   one.scheme.control = "SPH sum";
   for (const Measure measure : {Measure::norm, Measure::spectral}) {
     finding = sharp_limit(one, forward_euler, {24, {1.5, 4.0}, {}}, measure);
@@ -213,7 +207,7 @@ TEST_CASE("a wrong limit is noticed", "[stability-map]") {
 TEST_CASE("implicit limits: none of backward Euler, 1 + sqrt(2) of SDIRK2", "[stability-map]") {
   const StabilityGrid grid{24, {0.5, 2.5, 6.0}, {}};
   for (const int model : {1, 2}) {
-    const Subject one = subject(model, spline, Arrangement::jittered, named("constant-velocity"));
+    const Subject one = subject(model, spline, Arrangement::jittered, test::named_scene("constant-velocity"));
     const Finding backward = sharp_limit(one, backward_euler, grid, Measure::norm);
     CHECK(backward.judgement.verdict == Verdict::holds);
     for (const Point& point : backward.points) CHECK(point.value == 1000.0);
@@ -221,13 +215,13 @@ TEST_CASE("implicit limits: none of backward Euler, 1 + sqrt(2) of SDIRK2", "[st
     for (const Point& point : sharp_limit(one, sdirk2, grid, Measure::spectral).points) CHECK(point.value == 1000.0);
   }
   // Where the upwind difference is all of the scheme, SDIRK2's limit is that of its numerator, 1 + (1 - 2 gamma) z.
-  const Subject upwind = subject(1, inverse, Arrangement::uniform, named("constant-velocity"));
+  const Subject upwind = subject(1, inverse, Arrangement::uniform, test::named_scene("constant-velocity"));
   const Finding second = sharp_limit(upwind, sdirk2, {200, {0.5}, {}}, Measure::norm);
   CHECK(second.points[0].value == Approx(1.0 + std::sqrt(2.0)).epsilon(1e-3));
 }
 
 TEST_CASE("values that theory does not bound are no evidence", "[stability-map]") {
-  const Subject one = subject(1, inverse, Arrangement::uniform, named("constant-velocity"));
+  const Subject one = subject(1, inverse, Arrangement::uniform, test::named_scene("constant-velocity"));
   const Finding beyond = growth_curve(one, forward_euler, 32, 0.5, 2.0);
   CHECK(beyond.judgement.verdict == Verdict::inconclusive);
   CHECK(beyond.promised == Verdict::inconclusive);
@@ -254,7 +248,7 @@ TEST_CASE("positivity on moving particles goes by the sign of c - b", "[stabilit
 }
 
 TEST_CASE("Lemma 3.3 as printed fails on jittered particles at a horizon of two spacings", "[stability-map]") {
-  Subject one = subject(2, spline, Arrangement::jittered, named("lee-du-2019"));
+  Subject one = subject(2, spline, Arrangement::jittered, test::named_scene("lee-du-2019"));
   one.seeds = 3;
   const Finding finding = sharp_limit(one, forward_euler, {48, {2.0}, {}}, Measure::norm);
   CHECK(finding.judgement.verdict == Verdict::holds);
@@ -265,7 +259,7 @@ TEST_CASE("steps, growth and spectral radius keep their bounds on every arrangem
   const StabilityGrid grid{24, {0.5, 2.5, 6.0}, {0.5, 1.0, 2.0, 20.0}};
   for (const int model : {1, 2}) {
     for (const Arrangement arrangement : arrangements) {
-      const Subject one = subject(model, spline, arrangement, named("lee-du-2019"), true);
+      const Subject one = subject(model, spline, arrangement, test::named_scene("lee-du-2019"), true);
       for (const Integrator& integrator : integrators) {
         for (const Measure measure : {Measure::norm, Measure::spectral, Measure::growth}) {
           const Finding finding = stability_map(one, integrator, grid, measure);
@@ -279,14 +273,14 @@ TEST_CASE("steps, growth and spectral radius keep their bounds on every arrangem
 }
 
 TEST_CASE("growth in time is bounded within the condition only", "[stability-map]") {
-  const Subject moving = subject(1, inverse, Arrangement::uniform, named("lee-du-2019"));
+  const Subject moving = subject(1, inverse, Arrangement::uniform, test::named_scene("lee-du-2019"));
   const Finding within = growth_curve(moving, forward_euler, 32, 0.5, 0.9);
   CHECK(within.judgement.verdict == Verdict::holds);
   CHECK(std::isfinite(within.points.back().upper));
   CHECK(within.points.back().variable == 1.0);
   CHECK(std::isinf(growth_curve(moving, forward_euler, 32, 0.5, 16.0).points.back().upper));
   // At constant velocity the upwind difference grows like |2 CFL - 1|^n.
-  const Subject standing = subject(1, inverse, Arrangement::uniform, named("constant-velocity"));
+  const Subject standing = subject(1, inverse, Arrangement::uniform, test::named_scene("constant-velocity"));
   CHECK(growth_curve(standing, forward_euler, 32, 0.5, 1.0).points.back().value == Approx(1.0));
   const Finding beyond = growth_curve(standing, forward_euler, 32, 0.5, 2.0);
   CHECK(beyond.points.back().value == Approx(std::pow(3.0, static_cast<double>(beyond.points.size()))));

@@ -54,6 +54,14 @@ class Reading(ReportTest):
 
 
 class Ledger(ReportTest):
+    def test_values_that_theory_does_not_bound_are_in_the_study_but_no_evidence(self):
+        record = finding(statement="Lemma 2.4, growth curve", test="bounds", promised="inconclusive",
+                         expected="inconclusive", verdict="inconclusive")
+        study = read(self.folder, kind="stability-map", findings=[record, finding(statement="Lemma 2.4, map")])
+        of_paper, further = findings.ledger([study])
+        self.assertEqual([statement.name for statement in (*of_paper, *further)], ["Lemma 2.4, map"])
+        self.assertEqual(len(findings.entries(study)), 2)
+
     def test_statements_stand_in_the_order_of_the_paper_and_others_after_them(self):
         told = ("error budget", "Theorem 2.7 (2)", "Lemma 3.2, D", "Lemma 3.2, A", "(2.3)", "Theorem 2.7 (1), (2)",
                 "Remark 2.1", "(3.4)", "Lemma 3.1", "Lemma 2.3")
@@ -240,6 +248,15 @@ class Table(ReportTest):
         done = subprocess.run([sys.executable, "scripts/claims.py", str(self.folder)], cwd=ROOT, text=True,
                               capture_output=True, check=False)
         self.assertEqual((done.returncode, done.stderr, done.stdout.count("\n")), (0, "", 2))
+        # A series of which nothing but stability is asked has no row, but departs all the same.
+        stiff = {"theory": {"statement": "Theorem 2.7 (2)", "order": 1, "variable": "h"}, "kernel": "inverse",
+                 "observed": {"order": None}, "verdict": "unstable", "expected": "stable", "as_expected": False}
+        for as_expected, code in ((True, 0), (False, 1)):
+            (self.folder / "stiff.json").write_text(
+                json.dumps({"study": "stiff", "series": [stiff | {"as_expected": as_expected}]}))
+            done = subprocess.run([sys.executable, "scripts/claims.py", str(self.folder)], cwd=ROOT, text=True,
+                                  capture_output=True, check=False)
+            self.assertEqual((done.returncode, done.stderr, done.stdout.count("\n")), (code, "", 2))
         (self.folder / "fig1.json").write_text(json.dumps({"study": "fig1", "findings": []}))
         done = subprocess.run([sys.executable, "scripts/claims.py", str(self.folder)], cwd=ROOT, text=True,
                               capture_output=True, check=False)

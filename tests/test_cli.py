@@ -621,6 +621,12 @@ class Gate(ProgramTest):
         self.assertGreater(last["error_linf"], 1e5)
         self.assertEqual(self.acstudy("check", "out/tiny.json").returncode, 1)
 
+    def test_a_map_whose_runs_blow_up_fails_numerically(self):
+        unstable = edit(STUDY[:STUDY.index("[[path]]")], ('name = "tiny"', 'name = "tiny"\nkind = "map"'), ('"h/4"', '"3*h"'))
+        done = self.run_study(unstable + '[map]\ndelta = [0.001, 0.002, 0.004, 0.008]\nN = [160, 320, 640, 1280]\n'
+                                         'sources = ["local"]\n', expect=3)
+        self.assertIn("unstable, expected confirmed", done.stdout)
+
     def test_stable_is_no_error_of_many_times_the_solution(self):
         # Beyond the bound for a few steps: too few to blow up, enough to be of no use.
         few = edit(STUDY, ('"h/4"', '"3*h"'), ('"4*h"', '"h^2"'), (LEVELS, "[80, 120]"),

@@ -53,6 +53,19 @@ STUDIES = {
     "a scheme that asks for a control": (
         edit(STUDY, ("model = 1\n", 'model = 1\n@control = "downwind"\n')),
         'unknown key "control" in [[scheme]]; known keys: model, divergence, kernel, mu'),
+    "controls with implicit steps": (
+        edit(TINY, ('[time]\nintegrator = "forward-euler"', '@[time]\nintegrator = "backward-euler"')),
+        'integrator = "backward-euler"; a control has no matrix to solve with: write an explicit one'),
+    "controls by their rows": (
+        edit(TINY, ('step = "h/8"', 'step = @"cfl"\nbound = "rows"')),
+        'bound = "rows"; a control does not say what its rows need: leave bound out'),
+    "controls with several ways to step": (
+        edit(TINY, ("[time]", "@[[time]]")).replace(
+            '[[path]]\nname', '[[time]]\nintegrator = "ssprk2"\nstep = "h"\n\n[[path]]\nname', 1),
+        "a study of this kind steps in one way; leave one [[time]]"),
+    "controls that expect something of their steps": (
+        edit(TINY, ('[time]', '@[time]'), ('step = "h/8"', 'step = "h/8"\nexpect = "stable"')),
+        "a study of this kind expects nothing of a way to step; leave expect out of it"),
     "a control with the wrong divergence": (
         control('name = "downwind"\nscheme = @{ model = 1, divergence = "nonlocal", kernel = "inverse" }\n'),
         "downwind is a mistake in Model I, local divergence; write scheme = "

@@ -109,3 +109,55 @@ TEST_CASE("what makes no map is refused at its place") {
         "map.toml:17:12: sources = \"exact\"; it must be one of \"local\", \"nonlocal\"");
   CHECK(refusal(delta + N).find("map.toml:14:1: ") == 0);
 }
+
+TEST_CASE("a map says how its first run blew up") {
+  const auto out = std::filesystem::temp_directory_path() / ("acstudy-map-unstable-" + std::to_string(getpid()));
+  std::filesystem::create_directories(out);
+  std::string text =
+      map_text("delta = [0.001, 0.002, 0.004, 0.008]\nN = [160, 320, 640, 1280]\nsources = [\"local\"]\n");
+  text.replace(text.find("\"h/8\""), 5, "\"3*h\"");
+  text.replace(text.find("T = 0.25"), 8, "T = 1");
+  RunOptions options;
+  options.out = out;
+  const std::atomic<bool> stop{false};
+  const std::vector<Study> studies = {parse_study(text, "map.toml")};
+  const RunResult run = run_studies(studies, options, stop);
+  for (const auto& finding : run.studies[0].findings) {
+    CAPTURE(finding->label(), finding->remark);
+    CHECK_FALSE(finding->as_expected());
+    CHECK(finding->remark.find("the solution has grown to") != std::string::npos);
+    CHECK(finding->remark.find("particle") != std::string::npos);
+  }
+  std::filesystem::remove_all(out);
+}
+
+TEST_CASE("findings of an interrupted study are taken up one by one") {
+  const auto out = std::filesystem::temp_directory_path() / ("acstudy-findings-" + std::to_string(getpid()));
+  std::filesystem::create_directories(out);
+  const std::string text =
+      "[study]\nname = \"tiny\"\nkind = \"stability\"\n[scene]\nuse = \"constant-velocity\"\n"
+      "[[scheme]]\nmodel = 1\nkernel = \"inverse\"\n[sweep]\nN = [20]\nratios = [1]\n";
+  RunOptions options;
+  options.out = out;
+  std::atomic<bool> stop{false};
+  const auto run = [&](std::size_t interrupt_after) {
+    std::vector<Study> studies = {parse_study(text, "tiny.toml")};
+    REQUIRE(studies[0].measurements.size() == 6);
+    std::size_t taken = 0;
+    for (Measurement& measurement : studies[0].measurements) {
+      measurement.take = [&, inner = measurement.take](const std::vector<SeriesResult>& results) {
+        stop = ++taken == interrupt_after;
+        return inner(results);
+      };
+    }
+    stop = false;
+    run_studies(studies, options, stop);
+    return taken;
+  };
+  CHECK(run(2) == 2);
+  CHECK(load_cases(out / "tiny.h5").findings.size() == 2);
+  CHECK(run(0) == 4);
+  CHECK(load_cases(out / "tiny.h5").findings.size() == 6);
+  CHECK(run(0) == 0);
+  std::filesystem::remove_all(out);
+}

@@ -126,6 +126,14 @@ TEST_CASE("a run that blows up has no budget") {
   }
 }
 
+TEST_CASE("implicit steps are not compared with explicit ones of their length, and what must blow up is left out") {
+  const Folder folder;
+  folder.write("tiny.toml", study_text("integrator = \"backward-euler\"\nstep = \"h/4\"\n"));
+  CHECK(folder.study("studies = [\"tiny.toml\"]\n").series.size() == 2 * (3 + 4));
+  folder.write("tiny.toml", study_text("integrator = \"forward-euler\"\nstep = \"h\"\nexpect = \"unstable\"\n"));
+  CHECK(folder.study("studies = [\"tiny.toml\"]\n").series.empty());
+}
+
 TEST_CASE("a third-order integrator is not compared with itself, an adaptive source with the Gauss rule") {
   const Folder folder;
   folder.write("tiny.toml", study_text("integrator = \"ssprk3\"\nstep = \"h/2\"\n", "[source]\nrule = \"gsl\"\n"));

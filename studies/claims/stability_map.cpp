@@ -16,6 +16,7 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Row sums and eigenvalues of some hundred terms, relative.
 constexpr double round_off = 1e-11;
+
 /// What the bounds on a subject's steps are made of.
 struct Constants {
   double C;      ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant

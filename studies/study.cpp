@@ -36,7 +36,7 @@ double Case::estimated_work() const {
 }
 
 double Case::lemma_bound(double h_min) const {
-  return h_min / (scheme.model == 1 ? scene->max_relative_velocity() : 2.0 * mu);
+  return lemma_step(scheme, h_min, scheme.model == 1 ? scene->max_relative_velocity() : 0.0, mu);
 }
 
 void Case::halve_steps() {

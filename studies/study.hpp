@@ -42,6 +42,11 @@ struct StepRule {
   std::string label() const;
 };
 
+/// The largest forward Euler step at a smallest gap: h_min / max|c_hat| (Lemma 2.4), h_min / (2 mu) (Lemma 3.3).
+inline double lemma_step(const SchemeChoice& scheme, double h_min, double max_c_hat, double mu) {
+  return h_min / (scheme.model == 1 ? max_c_hat : 2.0 * mu);
+}
+
 /// Everything that fixes the numbers of one run.
 struct Case {
   std::shared_ptr<const Scene> scene;
@@ -62,7 +67,7 @@ struct Case {
   std::string key() const;
   /// Rough number of pair interactions, to start the longest case first.
   double estimated_work() const;
-  /// The largest forward Euler step by Lemma 2.4, h_min / max|c_hat|, or Lemma 3.3, h_min / (2 mu).
+  /// `lemma_step` of this case.
   double lemma_bound(double h_min) const;
   /// CFL number at the start: dt over the bound of the lemma.
   double cfl() const { return dt / lemma_bound(h * start.smallest_gap); }

@@ -103,7 +103,8 @@ TEST_CASE("a run that fails keeps what was said of its steps", "[steps]") {
                      .front();
   const CaseResult result = run(c);
   CAPTURE(result.failure, result.blow_up);
-  CHECK((!result.failure.empty() || !result.blow_up.empty()));
+  CHECK(result.failure.find("particles have crossed") != std::string::npos);
+  CHECK(result.failure.find("in step " + std::to_string(result.last.step + 1)) != std::string::npos);
   CHECK(result.against_bound.first_step > 0);
 }
 

@@ -12,8 +12,7 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
   const auto x = particles.x.values();
   if (condition == StepCondition::printed) {
     const double smallest = gaps({x.begin(), x.end()}, particles.period).smallest;
-    return subject.scheme.model == 2 ? smallest / (2.0 * subject.mu)
-                                     : smallest / subject.scene->max_relative_velocity();
+    return lemma_step(subject.scheme, smallest, subject.scene->max_relative_velocity(), subject.mu);
   }
   return 1.0 / placed.scheme().strongest_decay();
 }

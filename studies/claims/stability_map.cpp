@@ -45,14 +45,13 @@ bool viscosity_suffices(const Subject& subject, const PlacedScheme& placed, doub
 /// A subject on particles that stand for a while: its rates, and the steps that the two conditions allow.
 struct Frozen {
   SparseMatrix R;
-  double lemma;  ///< a CFL number of 1
-  double rows;   ///< what the rows need; 0 where no step is monotone
+  double lemma;  ///< the step that the lemma allows: CFL number 1
+  double rows;   ///< the step that the rows allow; 0 where none is monotone
 
   Frozen(const Subject& subject, const Constants& constants, const std::vector<double>& x, double delta) {
     PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
     R = sparse_rates(subject, placed);
-    const double smallest = gaps(x, subject.scene->period()).smallest;
-    lemma = smallest / (subject.scheme.model == 1 ? constants.speed : 2.0 * subject.mu);
+    lemma = lemma_step(subject.scheme, gaps(x, subject.scene->period()).smallest, constants.speed, subject.mu);
     const auto decay = [&] {
       if (subject.scheme.control.empty()) return placed.scheme().strongest_decay();
       // A control is stepped as the scheme that it is taken for.
@@ -185,15 +184,14 @@ class FrozenMeter {
   Eigen::VectorXcd eigenvalues_;
 };
 
-/// The sign of c_hat: +1 or -1 where it is the same everywhere, else 0.
-int sign_of_relative_velocity(const Scene& scene) {
+bool relative_velocity_keeps_its_sign(const Scene& scene) {
   const std::vector<double> x = uniform_positions(4096, scene.period());
   std::vector<double> c_hat(x.size()), b(x.size(), 0.0);
   scene.c(x, c_hat);
   if (!scene.standing()) scene.b(x, b);
   for (std::size_t j = 0; j < x.size(); ++j) c_hat[j] -= b[j];
   const auto [lowest, highest] = std::minmax_element(c_hat.begin(), c_hat.end());
-  return *lowest > 0.0 ? 1 : *highest < 0.0 ? -1 : 0;
+  return *lowest > 0.0 || *highest < 0.0;
 }
 
 /// Whether theory says that no entry of a step is negative; see smallest_entry.
@@ -291,7 +289,7 @@ Finding sharp_limit(const Subject& subject, const Integrator& integrator, const 
         const double dt = cfl * frozen.lemma;
         return dt < pole && meter(dt) <= phi(integrator, C, dt) * (1.0 + round_off);
       };
-      // The first CFL number that is not stable, by doubling; then between it and the last stable one.
+      // The first CFL number that is not stable, a quarter farther each time; then between it and the last stable one.
       double low = 1e-3, high = low;
       if (!stable(low)) {
         low = 0.0;
@@ -354,7 +352,7 @@ Finding smallest_entry(const Subject& subject, const Integrator& integrator, con
   Finding finding =
       finding_on(subject, integrator, "positivity", entries_claim(subject, integrator), "smallest entry of a step");
   finding.variable = "CFL number";
-  if (subject.scheme.model == 1 && sign_of_relative_velocity(scene) == 0) {
+  if (subject.scheme.model == 1 && !relative_velocity_keeps_its_sign(scene)) {
     finding.expected = Verdict::violated;
     finding.remark =
         "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; their entries "

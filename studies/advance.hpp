@@ -72,7 +72,7 @@ class SchemeInMotion {
 
   void rate(double t, PeriodicArray& u, std::span<double> du) {
     see(t);
-    scheme_.rate(u, du);
+    timed(result_.pairs_seconds, [&] { scheme_.rate(u, du); });
     for (std::size_t j = 0; j < du.size(); ++j) du[j] += f_[j];
   }
 
@@ -114,9 +114,13 @@ class SchemeInMotion {
   }
 
   void place(double t) {
-    particles_.place(motion_.at(t));
-    scheme_.place(particles_);
-    timed([&] { source_.place(particles_.x.values()); });
+    std::span<const double> x;
+    timed(result_.positions_seconds, [&] { x = motion_.at(t); });
+    timed(result_.weights_seconds, [&] {
+      particles_.place(x);
+      scheme_.place(particles_);
+    });
+    timed(result_.source_seconds, [&] { source_.place(particles_.x.values()); });
     factorized_for_ = 0.0;
     if (watched_) gap_ = smallest_gap();
   }
@@ -130,15 +134,15 @@ class SchemeInMotion {
   /// Particles, source and bound as a stage at time t sees them.
   void see(double t) {
     move(t);
-    timed([&] { source_.evaluate(t, f_); });
+    timed(result_.source_seconds, [&] { source_.evaluate(t, f_); });
     if (watched_) watch_.stage(lemma_bound_ * gap_.width, gap_.place);
   }
 
   template <class Work>
-  void timed(Work&& work) {
+  static void timed(double& seconds, Work&& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    result_.source_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   Scheme& scheme_;

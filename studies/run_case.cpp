@@ -54,7 +54,7 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t le
   const std::size_t most_repeats = timed ? 5 : 1;
   constexpr double enough_seconds = 0.1;
 
-  std::vector<double> seconds, source_seconds;
+  std::vector<double> seconds;
   CaseResult result;
   double total = 0.0;
   do {
@@ -69,7 +69,6 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t le
     }
     if (!result.completed) return result;
     seconds.push_back(result.seconds);
-    source_seconds.push_back(result.source_seconds);
     total += result.seconds;
   } while (std::isfinite(result.error_linf) &&
            (seconds.size() < least_repeats || (seconds.size() < most_repeats && total < enough_seconds)));
@@ -80,7 +79,6 @@ CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t le
   };
   result.repeats = static_cast<std::int64_t>(seconds.size());
   result.seconds = median(seconds);
-  result.source_seconds = median(source_seconds);
   result.seconds_low = *std::min_element(seconds.begin(), seconds.end());
   result.seconds_high = *std::max_element(seconds.begin(), seconds.end());
   return result;

@@ -42,7 +42,10 @@ struct CaseResult {
 
   double seconds = 0.0;                          ///< wall time of the whole time loop, median over the repeats
   double seconds_low = 0.0, seconds_high = 0.0;  ///< fastest and slowest repeat
-  double source_seconds = 0.0;                   ///< part of `seconds` spent in the manufactured source
+  double positions_seconds = 0.0;                ///< part of `seconds` spent on where the particles are
+  double weights_seconds = 0.0;                  ///< in velocities, windows and weights
+  double pairs_seconds = 0.0;                    ///< in the sums over pairs
+  double source_seconds = 0.0;                   ///< in the manufactured source
   std::int64_t repeats = 0;
 
   WorkCounts work;

@@ -29,6 +29,9 @@ void for_each_column(Result& result, Visit&& visit) {
   visit("seconds", result.seconds);
   visit("seconds_low", result.seconds_low);
   visit("seconds_high", result.seconds_high);
+  visit("positions_seconds", result.positions_seconds);
+  visit("weights_seconds", result.weights_seconds);
+  visit("pairs_seconds", result.pairs_seconds);
   visit("source_seconds", result.source_seconds);
   visit("repeats", result.repeats);
   visit("work_pairs", result.work.pairs);

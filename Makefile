@@ -17,11 +17,11 @@ compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
 # What the finest errors are made of takes longer than all gates together.
 gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 
-.PHONY: help studies test check mutants bench build format format-check clean compiled compiled-tests drawable
+.PHONY: help studies test check mutants bench compare build format format-check clean compiled compiled-tests drawable
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
-	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  SETUP=off  PYTHON=...  CXX=..."
+	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  SETUP=off  PYTHON=...  CXX=...  COMPARE=--quick|--all"
 
 # On a fresh machine the packages that draw are installed while the C++ compiles: half a minute less.
 # A verdict that departs (1) or a run that failed (3) is to be seen in the report too.
@@ -53,6 +53,12 @@ bench: build  ## error against run time with one case at a time, so that none di
 	@$(acstudy) run studies/fig*.toml --out "$(OUT)/bench" --jobs 1 --repeats 5 --fresh
 	$(setup) report
 	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/bench"
+
+compare: build  ## the same cases in NumPy, Octave and PySPH: errors have to be equal, run times are compared (some 10 minutes)
+	$(setup) report
+	@python=$$(scripts/find-python.sh) && \
+	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \
+	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$python" reports/report.py "$(OUT)"; fi
 
 build:  ## builds acstudy
 	$(setup) build

@@ -300,7 +300,36 @@ ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector
 
 }  // namespace
 
+Expression::FixedPoints::FixedPoints(const Expression& expression, std::span<const double> x)
+    : x_(x.begin(), x.end()), values_(expression.tape_.size()) {
+  std::vector<bool> needed(expression.tape_.size());
+  for (std::size_t i = 0; i <= expression.result_; ++i) {
+    const Node& node = expression.tape_[i];
+    const bool at_end = i == expression.result_ && node.depends == 1U;
+    if (at_end) needed[i] = true;
+    if (node.depends <= 1U) continue;
+    needed[node.a] = needed[node.b] = true;
+  }
+  Expression part = expression;
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if (!needed[i] || expression.tape_[i].depends != 1U || expression.tape_[i].op == Op::variable) continue;
+    values_[i].resize(x.size());
+    part.result_ = i;
+    part.evaluate(x, {}, {values_[i], {}, {}});
+  }
+}
+
+void Expression::evaluate(const FixedPoints& points, std::size_t begin, std::initializer_list<double> rest,
+                          std::span<double> value) const {
+  sweep({points.x_.data() + begin, value.size()}, &points, begin, rest, {value, {}, {}});
+}
+
 void Expression::evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const {
+  sweep(x, nullptr, 0, rest, out);
+}
+
+void Expression::sweep(std::span<const double> x, const FixedPoints* fixed, std::size_t first_point,
+                       std::initializer_list<double> rest, const Request& out) const {
   thread_local Workspace workspace;
   const bool first = !out.by_first.empty(), second = !out.by_second.empty();
   const std::size_t nodes = result_ + 1;
@@ -352,6 +381,13 @@ void Expression::evaluate(std::span<const double> x, std::initializer_list<doubl
       if (node.op == Op::variable) {
         std::copy_n(x.begin() + begin, here, value[i].begin());
         std::fill(value[i].begin() + here, value[i].begin() + n, x[begin]);
+        continue;
+      }
+      if (fixed != nullptr && node.depends == 1U) {
+        if (fixed->values_[i].empty()) continue;
+        const double* const known = fixed->values_[i].data() + first_point + begin;
+        std::copy_n(known, here, value[i].begin());
+        std::fill(value[i].begin() + here, value[i].begin() + n, known[0]);
         continue;
       }
       sweep_values(node, value, value[i], n);

@@ -49,6 +49,13 @@ class Expression {
   /// Sweeps over points x of the first variable, the others (`rest`) being the same for all points.
   void evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const;
 
+  /// Points x that stay, with all that can be computed of an expression from x alone. Copies the points.
+  class FixedPoints;
+
+  /// The value at fixed points from number `begin` on, the variables after the first given.
+  void evaluate(const FixedPoints& points, std::size_t begin, std::initializer_list<double> rest,
+                std::span<double> value) const;
+
   /// Names of the functions that an expression may call.
   static std::vector<std::string> function_names();
 
@@ -86,9 +93,23 @@ class Expression {
   };
 
  private:
+  friend class FixedPoints;
+  void sweep(std::span<const double> x, const FixedPoints* fixed, std::size_t first, std::initializer_list<double> rest,
+             const Request& out) const;
+
   std::string text_;
   std::vector<Node> tape_;
   std::size_t result_ = 0;
+};
+
+class Expression::FixedPoints {
+ public:
+  FixedPoints(const Expression& expression, std::span<const double> x);
+
+ private:
+  friend class Expression;
+  std::vector<double> x_;
+  std::vector<std::vector<double>> values_;  ///< of each node that depends on x alone and is used beyond that
 };
 
 }  // namespace acstudy

@@ -150,12 +150,14 @@ double Scene::max_relative_velocity() const {
 }
 
 Trajectories::Trajectories(const Scene& scene, std::vector<double> start)
-    : scene_(scene), start_(std::move(start)), x_(start_) {}
+    : scene_(scene), start_(std::move(start)), x_(start_) {
+  if (scene.flow()) at_start_.emplace(*scene.flow(), start_);
+}
 
 std::span<const double> Trajectories::at(double t) {
   if (t == t_) return x_;
   if (scene_.flow()) {
-    scene_.flow()->evaluate(start_, {t}, {x_, {}, {}});
+    at(t, 0, x_);
   } else {
     constexpr double tolerance = 1e-14;
     gsl_odeiv2_system system{[](double, const double x[], double dxdt[], void* flow) {

@@ -94,9 +94,17 @@ class Trajectories {
   /// Positions at time t, 0 <= t. Times may go back and forth; unwrapped, so that order is kept across the period.
   std::span<const double> at(double t);
 
+  /// True if positions are known in closed form, each on its own.
+  bool closed_form() const { return at_start_.has_value(); }
+  /// Positions of the particles from number `begin` on, at time t.  @pre closed_form()
+  void at(double t, std::size_t begin, std::span<double> x) const {
+    scene_.flow()->evaluate(*at_start_, begin, {t}, x);
+  }
+
  private:
   const Scene& scene_;
   std::vector<double> start_, x_;
+  std::optional<Expression::FixedPoints> at_start_;  ///< of the flow in closed form
   double t_ = 0.0;
 };
 

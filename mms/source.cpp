@@ -92,14 +92,16 @@ class NonlocalSource : public Source {
 /// f = u_t + b u_x + [b' u | sum_q w_q b'(y_q) u] + sum_q w_q (c_hat u)'(y_q).
 class ModelISource : public NonlocalSource {
  public:
-  using NonlocalSource::NonlocalSource;
+  ModelISource(const Scene& scene, const NonlocalModel& model, Rule rule, Look look)
+      : NonlocalSource(scene, model, std::move(rule)), look_(look) {}
 
   void place(std::span<const double> x) override {
     place_particles(x);
     const std::size_t m = rule_.size();
     for (auto* values : {&y_, &u_y_, &u_x_y_}) values->resize(x.size() * m);
     for (std::size_t j = 0; j < x.size(); ++j) {
-      const double s = at_x_.c_hat[j] > 0.0 ? 1.0 : -1.0;
+      const bool left = look_ == Look::upwind ? at_x_.c_hat[j] > 0.0 : look_ == Look::left;
+      const double s = left ? 1.0 : -1.0;
       for (std::size_t q = 0; q < m; ++q) y_[j * m + q] = x[j] - s * model_.delta * rule_.node[q];
     }
     at_y_.evaluate(scene_, y_);
@@ -121,6 +123,7 @@ class ModelISource : public NonlocalSource {
   }
 
  private:
+  Look look_;
   Values y_, u_y_, u_x_y_;
   Velocities at_y_;
 };
@@ -225,15 +228,15 @@ double disagreement(const Scene& scene, Source& coarse, Source& fine) {
 
 std::unique_ptr<Source> local_source(const Scene& scene) { return std::make_unique<LocalSource>(scene); }
 
-std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, std::size_t points) {
-  if (model.model == 1) return std::make_unique<ModelISource>(scene, model, derivative_rule(model.kernel, points));
+std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, std::size_t points, Look look) {
+  if (model.model == 1) {
+    return std::make_unique<ModelISource>(scene, model, derivative_rule(model.kernel, points), look);
+  }
   return std::make_unique<ModelIISource>(scene, model, derivative_rule(model.kernel, points),
                                          viscous_rule(model.kernel, points));
 }
 
-std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, SourceRule rule,
-                                        std::size_t refinement) {
-  if (rule != SourceRule::gauss) return std::make_unique<AdaptiveSource>(scene, model, rule);
+std::size_t sufficient_points(const Scene& scene, const NonlocalModel& model) {
   // Between 1e-14, the round-off of the sums, and 1e-13, what the fixed rule promises; for a field of very short waves
   // what round-off in its argument leaves, which two fine rules show.
   constexpr double promised = 3e-14, acceptable = 1e-10;
@@ -243,15 +246,19 @@ std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel&
   if (round_off <= acceptable) {
     const double tolerance = std::max(promised, 2.0 * round_off);
     for (std::size_t points = 2; points <= most; ++points) {
-      auto source = nonlocal_source(scene, model, points);
-      if (disagreement(scene, *source, *reference) <= tolerance)
-        return nonlocal_source(scene, model, refinement * points);
+      if (disagreement(scene, *nonlocal_source(scene, model, points), *reference) <= tolerance) return points;
     }
   }
   throw std::domain_error(
       fmt::format("no Gauss rule of up to {} points integrates the source at delta = {:.6g} to round-off; "
                   "the fields vary too fast within the horizon: use rule = \"gsl\" or \"boost\"",
                   most, model.delta));
+}
+
+std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, SourceRule rule,
+                                        std::size_t refinement) {
+  if (rule != SourceRule::gauss) return std::make_unique<AdaptiveSource>(scene, model, rule);
+  return nonlocal_source(scene, model, refinement * sufficient_points(scene, model));
 }
 
 }  // namespace acstudy

@@ -24,6 +24,9 @@ struct NonlocalModel {
 /// How nonlocal sources are integrated: a fixed Gauss rule, or adaptively by a library (slow; the reference).
 enum class SourceRule { gauss, gsl, boost };
 
+/// Where Model I looks: by the sign of c_hat, or to one side everywhere, which makes its source a smooth field.
+enum class Look { upwind, left, right };
+
 /// The manufactured source in the moving frame, f = du/dt + b' u + (c_hat u)_x or its nonlocal counterpart.
 class Source {
  public:
@@ -48,7 +51,11 @@ std::unique_ptr<Source> local_source(const Scene& scene);
 std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model,
                                         SourceRule rule = SourceRule::gauss, std::size_t refinement = 1);
 
-/// The same with a given number of Gauss points.
-std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, std::size_t points);
+/// The fewest Gauss points that integrate the source to round-off.  @throws std::domain_error as above
+std::size_t sufficient_points(const Scene& scene, const NonlocalModel& model);
+
+/// The source with a given number of Gauss points.
+std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, std::size_t points,
+                                        Look look = Look::upwind);
 
 }  // namespace acstudy

@@ -3,10 +3,10 @@
 /// @file
 /// Elementary functions of whole vectors, where the C library has them.
 ///
-/// The GNU C library's vector variants of sin, cos, exp and log (libmvec, at most 4 units in the last place) are
-/// offered to the compiler here, for the translation unit that includes this header and for no other; so this is the
-/// one place where a function value may differ from the scalar library's. Everywhere else, and with other C libraries,
-/// <cmath> is used.
+/// The GNU C library's vector variants of sin, cos, exp, log and atan2 (libmvec, at most 4 units in the last place)
+/// are offered to the compiler here, for the translation units that include this header and for no other; so these are
+/// the only places where a function value may differ from the scalar library's. Everywhere else, and with other C
+/// libraries, <cmath> is used.
 
 #include <cmath>
 #include <cstddef>
@@ -17,9 +17,12 @@ __attribute__((simd("notinbranch"))) double sin(double) noexcept;
 __attribute__((simd("notinbranch"))) double cos(double) noexcept;
 __attribute__((simd("notinbranch"))) double exp(double) noexcept;
 __attribute__((simd("notinbranch"))) double log(double) noexcept;
+#if __GLIBC_PREREQ(2, 35)
+__attribute__((simd("notinbranch"))) double atan2(double, double) noexcept;
+#endif
 }
-/// Compiles a function a second time for four-wide vectors, chosen when the program is loaded.
-#define ACSTUDY_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+/// Compiles a function again for wider vectors, chosen when the program is loaded.
+#define ACSTUDY_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define ACSTUDY_VECTOR_CLONES
 #endif

@@ -5,6 +5,7 @@
 
 #include <cassert>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,31 +17,46 @@ namespace acstudy {
 /// pair.
 class PeriodicArray {
  public:
-  explicit PeriodicArray(std::size_t size = 0) : size_(size), values_(3 * size) {}
+  explicit PeriodicArray(std::size_t size = 0)
+      : size_(size), margin_(size + vector_margin), values_(size + 2 * margin_) {}
 
   std::size_t size() const { return size_; }
-  double operator[](std::ptrdiff_t j) const { return values_[static_cast<std::size_t>(j + std::ssize(*this))]; }
-  double& operator[](std::ptrdiff_t j) { return values_[static_cast<std::size_t>(j + std::ssize(*this))]; }
+  double operator[](std::ptrdiff_t j) const { return values_[static_cast<std::size_t>(j + margin())]; }
+  double& operator[](std::ptrdiff_t j) { return values_[static_cast<std::size_t>(j + margin())]; }
 
   /// Pointer to entry j; valid for reading at offsets up to the wrapped reach.
-  const double* at(std::ptrdiff_t j) const { return values_.data() + j + std::ssize(*this); }
+  const double* at(std::ptrdiff_t j) const { return values_.data() + margin_ + j; }
 
-  std::span<const double> values() const { return {values_.data() + size_, size_}; }
-  std::span<double> values() { return {values_.data() + size_, size_}; }
+  std::span<const double> values() const { return {values_.data() + margin_, size_}; }
+  std::span<double> values() { return {values_.data() + margin_, size_}; }
+
+  /// Ghosts that there is room for on each side.
+  std::ptrdiff_t margin() const { return static_cast<std::ptrdiff_t>(margin_); }
 
   /// Makes entries -reach .. -1 and N .. N+reach-1 the periodic images; `period` is added per turn (0 for fields).
-  /// @pre reach <= N
+  /// @pre reach <= margin()
   void wrap(std::ptrdiff_t reach, double period = 0.0) {
+    wrap_with(
+        reach, [period](double value) { return value + period; }, [period](double value) { return value - period; });
+  }
+  /// The same for values that change sign with every period, such as those of cos(x/2).
+  void wrap_alternating(std::ptrdiff_t reach) { wrap_with(reach, std::negate<double>(), std::negate<double>()); }
+
+ private:
+  /// Sums over several particles at a time read up to a vector more at either end.
+  static constexpr std::size_t vector_margin = 24;
+
+  template <class Later, class Earlier>
+  void wrap_with(std::ptrdiff_t reach, Later later, Earlier earlier) {
     const std::ptrdiff_t n = std::ssize(*this);
-    assert(reach <= n);
+    assert(reach <= margin());
     for (std::ptrdiff_t k = 0; k < reach; ++k) {
-      (*this)[n + k] = (*this)[k] + period;
-      (*this)[-1 - k] = (*this)[n - 1 - k] - period;
+      (*this)[n + k] = later((*this)[k]);
+      (*this)[-1 - k] = earlier((*this)[n - 1 - k]);
     }
   }
 
- private:
-  std::size_t size_;
+  std::size_t size_, margin_;
   std::vector<double> values_;
 };
 

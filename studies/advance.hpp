@@ -16,8 +16,10 @@
 #include "solver/integrators.hpp"
 #include "solver/particles.hpp"
 #include "studies/operator.hpp"
+#include "studies/outcome.hpp"
 #include "studies/run_case.hpp"
 #include "studies/scheme.hpp"
+#include "studies/stopwatch.hpp"
 #include "studies/watch.hpp"
 
 namespace acstudy {
@@ -138,13 +140,6 @@ class SchemeInMotion {
     if (watched_) watch_.stage(lemma_bound_ * gap_.width, gap_.place);
   }
 
-  template <class Work>
-  static void timed(double& seconds, Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-
   Scheme& scheme_;
   Source& source_;
   Motion& motion_;
@@ -162,13 +157,6 @@ class SchemeInMotion {
   ImplicitSolver solver_;
   double factorized_for_ = 0.0;  ///< the scale; 0: for none
 };
-
-/// Errors of u against the exact solution at x and t; NaN if one is.
-struct Errors {
-  double linf = 0.0, l1 = 0.0, l2 = 0.0;  ///< the latter two weighted by cell width and divided by the period
-};
-Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
-                 std::span<const double> u_exact);
 
 /// Integrates from the exact initial values to T and measures the error; one repeat.
 template <class Motion>
@@ -215,31 +203,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (stop.load(std::memory_order_relaxed)) return result;
 
-  result.blow_up = growth.blow_up();
-  const bool to_the_end = result.failure.empty() && result.blow_up.empty();
-  result.last = growth.last();
-  const double end = to_the_end ? scene.T() : result.blow_up.empty() ? t : result.last.time;
-  const auto x = motion.at(end);
-  result.x.assign(x.begin(), x.end());
-  result.u.assign(u.values().begin(), u.values().end());
-  result.u_exact.resize(count);
-  scene.u(x, end, result.u_exact);
-  result.solution_linf = std::max(solution_at_first, max_norm(result.u_exact));
-  const Errors errors = errors_of(scene, result.x, result.u, result.u_exact);
-  if (to_the_end) {
-    result.error_linf = errors.linf;
-    result.error_l1 = errors.l1;
-    result.error_l2 = errors.l2;
-    if (!std::isfinite(errors.linf)) result.blow_up = "the error is not finite at T";
-  } else {
-    result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
-    result.last.error_linf = errors.linf;
-    result.last.error_l1 = errors.l1;
-    result.last.error_l2 = errors.l2;
-    result.last.step = result.blow_up.empty() ? result.steps : result.last.step;
-    result.last.time = end;
-    if (result.last.particle >= 0) result.last.place = result.x[static_cast<std::size_t>(result.last.particle)];
-  }
+  conclude(result, c, growth, u.values(), t, solution_at_first, [&](double time) { return motion.at(time); });
   result.work = scheme.work();
   result.quadrature_points = source.quadrature_points();
   result.completed = true;

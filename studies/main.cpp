@@ -139,7 +139,14 @@ void note_steps_beyond_bounds(const std::vector<StudyResult>& studies) {
 }
 
 int run(const std::vector<std::string>& files, RunOptions options) {
-  const std::vector<Study> studies = read_studies(files);
+  std::vector<Study> studies = read_studies(files);
+  if (options.readable) {
+    for (Study& study : studies) {
+      for (Series& series : study.series) {
+        for (Case& c : series.cases) c.readable = true;
+      }
+    }
+  }
   prepare_folder(options.out);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -252,7 +259,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> files;
   RunOptions options;
   options.jobs = available_processors();
-  std::string out = options.out.string(), what;
+  std::string out = options.out.string(), what, form = "vector";
   std::optional<std::string> junit;
   bool github = false;
 
@@ -268,6 +275,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   run_command->add_flag("--fresh", options.fresh, "run stored cases again");
+  run_command
+      ->add_option("--form", form, "vector: several particles at a time, weights never stored; readable: its reference")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"vector", "readable"}))
+      ->capture_default_str();
 
   CLI::App* const check_command =
       app.add_subcommand("check", "The gate: judge result files; exit 1 if a verdict departs");
@@ -317,6 +329,7 @@ int main(int argc, char** argv) {
     if (*run_command) {
       options.out = out;
       for (int i = 0; i < argc; ++i) options.command += (i > 0 ? " " : "") + std::string(argv[i]);
+      options.readable = form == "readable";
       status = run(files, options);
     } else if (*check_command) {
       status = check(files, junit, github);

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "build_info.hpp"
+#include "solver/vector/sweeps.hpp"
 
 namespace acstudy {
 
@@ -36,11 +37,11 @@ std::string utc_now() {
 }  // namespace
 
 std::string numerics_fingerprint() {
-  return fmt::format("{} {} {}", build_info::numerics, build_info::compiler, build_info::flags);
+  return fmt::format("{} {} {} {}", build_info::numerics, build_info::compiler, build_info::flags, sweeps().name);
 }
 
 std::string measurements_fingerprint() {
-  return fmt::format("{} {} {}", build_info::measurements, build_info::compiler, build_info::flags);
+  return fmt::format("{} {} {} {}", build_info::measurements, build_info::compiler, build_info::flags, sweeps().name);
 }
 
 Provenance collect_provenance(int jobs, const std::string& command) {
@@ -58,6 +59,7 @@ Provenance collect_provenance(int jobs, const std::string& command) {
       {"build_type", build_info::build_type},
       {"libraries", libraries},
       {"machine", processor()},
+      {"vectors", sweeps().name},
       {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
       {"created", utc_now()},
       {"jobs", std::to_string(jobs)},

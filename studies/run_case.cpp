@@ -7,6 +7,7 @@
 
 #include "studies/advance.hpp"
 #include "studies/control_choice.hpp"
+#include "studies/ensemble.hpp"
 
 namespace acstudy {
 
@@ -32,56 +33,51 @@ CaseResult failed(const std::string& reason) {
 
 }  // namespace
 
-Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
-                 std::span<const double> u_exact) {
-  const std::size_t count = x.size();
-  Errors errors;
-  for (std::size_t j = 0; j < count; ++j) {
-    const double right = j + 1 < count ? x[j + 1] : x[0] + scene.period();
-    const double left = j > 0 ? x[j - 1] : x[count - 1] - scene.period();
-    const double error = std::abs(u[j] - u_exact[j]), width = 0.5 * (right - left);
-    // Once NaN, it stays: no comparison with a NaN is true.
-    if (std::isnan(error) || error > errors.linf) errors.linf = error;
-    errors.l1 += width * error;
-    errors.l2 = std::hypot(errors.l2, std::sqrt(width) * error);  // a square of an error may overflow
-  }
-  errors.l1 /= scene.period();
-  errors.l2 /= std::sqrt(scene.period());
-  return errors;
+namespace {
+
+CaseResult run_readable(const Case& c, const std::atomic<bool>& stop) {
+  if (c.scene->standing()) return run_once<StandingParticles>(c, stop);
+  if (c.scheme.control == misprinted_trajectories) return run_once<MisprintedParticles>(c, stop);
+  return run_once<MovingParticles>(c, stop);
 }
 
-CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats, bool timed) {
-  const std::size_t most_repeats = timed ? 5 : 1;
-  constexpr double enough_seconds = 0.1;
+std::vector<CaseResult> run_together(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop) {
+  try {
+    if (cases.size() > 1 || runs_in_vector_form(*cases.front())) return run_ensemble(cases, threads, stop);
+    return {run_readable(*cases.front(), stop)};
+  } catch (const std::domain_error& error) {
+    return std::vector<CaseResult>(cases.size(), failed(error.what()));
+  } catch (const std::runtime_error& error) {
+    return std::vector<CaseResult>(cases.size(), failed(error.what()));
+  }
+}
 
-  std::vector<double> seconds;
-  CaseResult result;
-  double total = 0.0;
-  do {
-    try {
-      result = c.scene->standing()                           ? run_once<StandingParticles>(c, stop)
-               : c.scheme.control == misprinted_trajectories ? run_once<MisprintedParticles>(c, stop)
-                                                             : run_once<MovingParticles>(c, stop);
-    } catch (const std::domain_error& error) {
-      result = failed(error.what());
-    } catch (const std::runtime_error& error) {
-      result = failed(error.what());
+}  // namespace
+
+std::vector<CaseResult> run_cases(std::span<const Case* const> cases, const std::atomic<bool>& stop,
+                                  std::size_t repeats, int threads) {
+  std::vector<std::vector<double>> seconds(cases.size());
+  std::vector<CaseResult> results;
+  for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+    results = run_together(cases, threads, stop);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (!results[i].completed) return results;
+      seconds[i].push_back(results[i].seconds);
     }
-    if (!result.completed) return result;
-    seconds.push_back(result.seconds);
-    total += result.seconds;
-  } while (std::isfinite(result.error_linf) &&
-           (seconds.size() < least_repeats || (seconds.size() < most_repeats && total < enough_seconds)));
+  }
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    std::sort(seconds[i].begin(), seconds[i].end());
+    results[i].repeats = static_cast<std::int64_t>(repeats);
+    results[i].seconds = 0.5 * (seconds[i][(repeats - 1) / 2] + seconds[i][repeats / 2]);
+    results[i].seconds_low = seconds[i].front();
+    results[i].seconds_high = seconds[i].back();
+  }
+  return results;
+}
 
-  const auto median = [](std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
-  };
-  result.repeats = static_cast<std::int64_t>(seconds.size());
-  result.seconds = median(seconds);
-  result.seconds_low = *std::min_element(seconds.begin(), seconds.end());
-  result.seconds_high = *std::max_element(seconds.begin(), seconds.end());
-  return result;
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t repeats, int threads) {
+  const Case* const one = &c;
+  return run_cases({&one, 1}, stop, repeats, threads).front();
 }
 
 }  // namespace acstudy

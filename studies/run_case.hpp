@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,11 +61,14 @@ struct CaseResult {
   std::vector<double> x, u, u_exact;  ///< fields at T, or the last finite ones of a run that was given up, shape [N]
 };
 
-/// Runs a case, several times if it is short, so that its run time means something.
+/// Runs a case `repeats` times and takes the median of its times.
 ///
-/// @param least_repeats  runs of a case however long it is
-/// @param timed  false where only the solution counts: one run, unless `least_repeats` asks for more
-/// @param stop  looked at between time steps; once true the run ends with `completed` false
-CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t least_repeats = 1, bool timed = true);
+/// @param stop     looked at between time steps; once true the run ends with `completed` false
+/// @param threads  that share the work, where the case has a vector form; the numbers do not depend on it
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t repeats = 1, int threads = 1);
+
+/// The same for cases of one `ensemble_key`, together.
+std::vector<CaseResult> run_cases(std::span<const Case* const> cases, const std::atomic<bool>& stop,
+                                  std::size_t repeats = 1, int threads = 1);
 
 }  // namespace acstudy

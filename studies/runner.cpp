@@ -14,6 +14,8 @@
 #include <thread>
 #include <unordered_map>
 
+#include "studies/ensemble.hpp"
+
 namespace acstudy {
 
 namespace {
@@ -26,6 +28,48 @@ struct Job {
   };
   std::vector<Place> wanted_by;
 };
+
+/// Jobs that one call of `run_cases` does: cases on the same particles together, or one by itself.
+struct Batch {
+  std::vector<std::size_t> jobs;
+  double work = 0.0;
+};
+
+/// True if a batch has the case with the other divergence, with which it shares its sweeps.
+bool has_twin(const Case& c, const Batch& batch, const std::vector<Job>& jobs) {
+  return std::any_of(batch.jobs.begin(), batch.jobs.end(), [&](std::size_t i) {
+    const Case& other = *jobs[i].c;
+    return other.delta == c.delta && other.scheme.model == c.scheme.model && other.mu == c.mu &&
+           other.scheme.kernel.label() == c.scheme.kernel.label();
+  });
+}
+
+/// Puts jobs together whose cases share their particles, but no more into a batch than leaves every worker something
+/// to do. Heaviest batch first.
+std::vector<Batch> batches_of(const std::vector<Job>& jobs, int workers) {
+  double total = 0.0;
+  for (const Job& job : jobs) total += job.c->estimated_work();
+  const double most = workers == 1 ? total : total / (4.0 * workers);
+  std::vector<Batch> batches;
+  std::map<std::string, std::size_t> open;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const Case& c = *jobs[i].c;
+    const double work = c.estimated_work();
+    std::size_t batch = batches.size();
+    if (runs_in_vector_form(c)) {
+      const auto [entry, is_new] = open.try_emplace(ensemble_key(c), batch);
+      if (!is_new && batches[entry->second].work + work > most && !has_twin(c, batches[entry->second], jobs)) {
+        entry->second = batch;
+      }
+      batch = entry->second;
+    }
+    if (batch == batches.size()) batches.emplace_back();
+    batches[batch].jobs.push_back(i);
+    batches[batch].work += work;
+  }
+  std::stable_sort(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) { return a.work > b.work; });
+  return batches;
+}
 
 /// A line on the terminal that is rewritten; silent where stderr is none.
 class Progress {
@@ -181,8 +225,7 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
     const bool untouched = open_cases[s] == 0 && measured && !stored.provenance.empty();
     provenance.push_back(untouched ? stored.provenance : collect_provenance(options.jobs, options.command));
   }
-  std::stable_sort(jobs.begin(), jobs.end(),
-                   [](const Job& a, const Job& b) { return a.c->estimated_work() > b.c->estimated_work(); });
+  const std::vector<Batch> batches = batches_of(jobs, options.jobs);
 
   std::vector<bool> finished(studies.size());
   const auto finish = [&](std::size_t s) {
@@ -200,20 +243,39 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   for (const Job& job : jobs) work += job.c->estimated_work();
   Progress progress(jobs.size(), work);
   std::mutex mutex;
-  std::exception_ptr failure = in_parallel(jobs.size(), options.jobs, stop, [&](std::size_t i) {
-    const bool timed = std::any_of(jobs[i].wanted_by.begin(), jobs[i].wanted_by.end(),
-                                   [&](const auto& place) { return studies[place.study].judged_by_series(); });
-    const CaseResult result = run_case(*jobs[i].c, stop, options.repeats, timed);
+  const auto run_batch = [&](const Batch& batch, int threads) {
+    std::vector<const Case*> cases;
+    for (const std::size_t i : batch.jobs) cases.push_back(jobs[i].c);
+    const std::vector<CaseResult> results = run_cases(cases, stop, options.repeats, threads);
     const std::lock_guard lock(mutex);
-    if (!result.completed) return;
-    ++run.computed;
-    progress.done(jobs[i].c->estimated_work());
-    for (const auto& place : jobs[i].wanted_by) {
-      run.studies[place.study].series[place.series].results[place.level] = result;
-      --open_cases[place.study];
-      finish_if_complete(place.study);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      if (!results[k].completed) continue;
+      const Job& job = jobs[batch.jobs[k]];
+      ++run.computed;
+      progress.done(job.c->estimated_work());
+      for (const auto& place : job.wanted_by) {
+        run.studies[place.study].series[place.series].results[place.level] = results[k];
+        --open_cases[place.study];
+        finish_if_complete(place.study);
+      }
     }
-  });
+  };
+  // What alone takes longer than all the rest is shared out to all threads, one batch after the other.
+  std::size_t shared = 0;
+  std::exception_ptr failure;
+  try {
+    for (double rest = work; options.jobs > 1 && shared < batches.size() && !stop; ++shared) {
+      rest -= batches[shared].work;
+      if (batches[shared].work * (options.jobs - 1) <= rest) break;
+      run_batch(batches[shared], options.jobs);
+    }
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  if (!failure) {
+    failure = in_parallel(batches.size() - shared, options.jobs, stop,
+                          [&](std::size_t i) { run_batch(batches[shared + i], 1); });
+  }
   if (!failure && !stop) {
     failure = in_parallel(measurements.size(), options.jobs, stop, [&](std::size_t i) {
       const auto [s, m] = measurements[i];

@@ -17,7 +17,8 @@ struct RunOptions {
   std::filesystem::path out = "reports/out";
   int jobs = 1;             ///< cases that run at the same time
   bool fresh = false;       ///< run stored cases again
-  std::size_t repeats = 1;  ///< least number of timed runs of a case
+  bool readable = false;    ///< run cases in the readable form of their schemes
+  std::size_t repeats = 1;  ///< runs of each case, for its time and the spread
   std::string command;
 };
 

@@ -29,6 +29,11 @@ std::unique_ptr<Scheme> make_scheme(const SchemeChoice& choice, const Scene& sce
   return make_with<LocalDivergence>(choice, scene, mu);
 }
 
+NonlocalModel nonlocal_model(const SchemeChoice& choice, double mu, double delta) {
+  KernelProfile kernel = with_kernel(choice.kernel, [](const auto& k) { return profile(k); });
+  return {choice.model, choice.nonlocal_divergence, std::move(kernel), delta, mu};
+}
+
 std::unique_ptr<Source> make_source(const SchemeChoice& choice, const Scene& scene, double mu, bool nonlocal,
                                     double delta, SourceRule rule, std::size_t refinement) {
   if (!choice.control.empty()) {
@@ -37,9 +42,7 @@ std::unique_ptr<Source> make_source(const SchemeChoice& choice, const Scene& sce
     return make_control_source(choice.control, make_source(itself, scene, mu, nonlocal, delta, rule, refinement));
   }
   if (!nonlocal) return local_source(scene);
-  KernelProfile kernel = with_kernel(choice.kernel, [](const auto& k) { return profile(k); });
-  return nonlocal_source(scene, {choice.model, choice.nonlocal_divergence, std::move(kernel), delta, mu}, rule,
-                         refinement);
+  return nonlocal_source(scene, nonlocal_model(choice, mu, delta), rule, refinement);
 }
 
 }  // namespace acstudy

@@ -45,6 +45,9 @@ class Scheme {
 /// @param scene  outlives the scheme
 std::unique_ptr<Scheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu);
 
+/// The continuum model that a scheme discretizes at horizon `delta`.
+NonlocalModel nonlocal_model(const SchemeChoice& choice, double mu, double delta);
+
 /// The manufactured source that belongs to a scheme: of the PDE, or of the nonlocal model at horizon `delta`.
 std::unique_ptr<Source> make_source(const SchemeChoice& choice, const Scene& scene, double mu, bool nonlocal,
                                     double delta, SourceRule rule = SourceRule::gauss, std::size_t refinement = 1);

@@ -14,7 +14,7 @@ std::string Case::key() const {
   return fmt::format(
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
-      "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}",
+      "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}",
       text.period, text.T, text.c, text.b.value_or(""), text.u, text.flow.value_or(""), scheme.model,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
@@ -25,14 +25,14 @@ std::string Case::key() const {
                                           : fmt::format("{}*{:.17g}", step.label(), step.safety),
       start == Start{} ? "" : fmt::format("|start={},{:.17g}", start.label(), start.smallest_gap),
       scheme.control.empty() ? "" : "|control=" + scheme.control,
-      source_refinement == 1 ? "" : fmt::format("|source_points=x{}", source_refinement));
+      source_refinement == 1 ? "" : fmt::format("|source_points=x{}", source_refinement),
+      readable ? "|form=readable" : "");
 }
 
 double Case::estimated_work() const {
-  const double sides = scheme.model == 1 ? 1.0 : 2.0;
-  const double neighbors = sides * std::max(1.0, delta / h) + (nonlocal_source ? 20.0 * sides : 5.0);
+  const double of_pair = scheme.model == 1 ? 1.0 : 4.0, of_particle = 10.0;
   return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stage_count()) *
-         neighbors;
+         (of_pair * std::max(1.0, delta / h) + of_particle);
 }
 
 double Case::lemma_bound(double h_min) const {

@@ -61,6 +61,7 @@ struct Case {
   std::int64_t steps;  ///< equal ones; with a bound, as many of the first one
   Start start = {};
   StepRule step = {};
+  bool readable = false;              ///< run in the readable form of the scheme even where there is a vector form
   std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
 
   /// Text that is equal for two cases exactly if all their inputs are equal.

@@ -153,7 +153,7 @@ source = "local"
   };
   CHECK(study("downwind").key() != study("").key());
   const std::atomic<bool> stop{false};
-  CHECK(run_case(study("downwind"), stop, 1, false).u != run_case(study(""), stop, 1, false).u);
+  CHECK(run_case(study("downwind"), stop).u != run_case(study(""), stop).u);
 }
 
 TEST_CASE("the SPH sum on uniform standing particles is that of the textbook") {

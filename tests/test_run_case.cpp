@@ -27,7 +27,7 @@ std::vector<Case> cases(const std::string& time, const std::string& delta = "h^2
 
 CaseResult run(const Case& c) {
   const std::atomic<bool> stop{false};
-  return run_case(c, stop, 1, false);
+  return run_case(c, stop);
 }
 
 const std::string by_forward_euler = "integrator = \"forward-euler\"\nstep = ",

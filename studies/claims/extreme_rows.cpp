@@ -137,7 +137,7 @@ Case case_of(const Subject& subject, std::int64_t N, double delta, std::int64_t 
 
 CaseResult run(const Case& c) {
   const std::atomic<bool> stop = false;
-  CaseResult result = run_case(c, stop, 1, false);
+  CaseResult result = run_case(c, stop);
   if (!result.failure.empty()) throw std::runtime_error(result.failure);
   return result;
 }

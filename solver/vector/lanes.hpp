@@ -1,0 +1,80 @@
+#pragma once
+
+/// @file
+/// Several particles at a time: what the vector form of the schemes computes with.
+///
+/// A source file that includes this is compiled once per instruction set, each time with another name for
+/// ACSTUDY_ISA, so that nothing compiled for wide vectors can be called on a machine that has none.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__AVX512F__) || defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#ifndef ACSTUDY_ISA
+#define ACSTUDY_ISA baseline
+#endif
+
+/// Sums must stay in registers, which they do only where the walk and what it visits become one function.
+#define ACSTUDY_ALWAYS_INLINE __attribute__((always_inline))
+
+namespace acstudy {
+inline namespace ACSTUDY_ISA {
+
+#if defined(__AVX512F__)
+inline constexpr int lane_count = 8;
+#elif defined(__AVX2__)
+inline constexpr int lane_count = 4;
+#else
+inline constexpr int lane_count = 2;
+#endif
+
+/// One double per particle, as many as the widest vectors of the instruction set hold.
+using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
+/// Per lane all bits set or none; what comparing Lanes gives.
+using Mask = std::int64_t __attribute__((vector_size(lane_count * sizeof(double))));
+
+/// p need not be aligned.
+inline Lanes load(const double* p) {
+  Lanes v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store(double* p, Lanes v) { std::memcpy(p, &v, sizeof v); }
+
+inline Lanes spread(double value) { return value - Lanes{}; }
+/// first, first + 1, ...
+inline Lanes counting_from(double first) {
+  Lanes v;
+  for (int i = 0; i < lane_count; ++i) v[i] = first + i;
+  return v;
+}
+
+inline constexpr unsigned all_bits = (1U << lane_count) - 1;
+
+#if defined(__AVX512F__)
+inline unsigned bits(Mask m) { return _mm512_cmplt_epi64_mask((__m512i)m, _mm512_setzero_si512()); }
+inline bool all_at_most(Lanes a, Lanes b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ) == all_bits; }
+#else
+inline unsigned bits(Mask m) {
+#if defined(__AVX2__)
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
+#else
+  return static_cast<unsigned>((m[0] & 1) | (m[1] & 2));
+#endif
+}
+inline bool all_at_most(Lanes a, Lanes b) { return bits(a <= b) == all_bits; }
+#endif
+
+inline bool any(Mask m) { return bits(m) != 0; }
+inline bool all(Mask m) { return bits(m) == all_bits; }
+inline int count(Mask m) { return __builtin_popcount(bits(m)); }
+
+inline Lanes min(Lanes a, Lanes b) { return a < b ? a : b; }
+inline Lanes max(Lanes a, Lanes b) { return a > b ? a : b; }
+
+}  // namespace ACSTUDY_ISA
+}  // namespace acstudy

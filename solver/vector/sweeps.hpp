@@ -1,0 +1,106 @@
+#pragma once
+
+/// @file
+/// The vector form of the schemes on moving particles: rates of all particles in one sweep, in which weights are
+/// computed where they are used and never stored. ModelI and ModelII are the readable form of the same; tests compare
+/// the two.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "solver/cells.hpp"
+#include "solver/rate_matrix.hpp"
+
+namespace acstudy {
+
+/// A kernel as the sweeps know it.
+struct SweepKernel {
+  enum class Form { inverse, cubic_spline, scalar };
+  Form form;
+  const void* kernel = nullptr;  ///< for `scalar`: any kernel, by its cell moments
+  double (*first_moment)(const void* kernel, const Cell& cell) = nullptr;
+  double (*mass)(const void* kernel, const Cell& cell) = nullptr;
+};
+
+/// A scheme that takes part in a sweep: its values and where its rates go. Both divergence forms may, and then share
+/// the geometry. Left out: u is null.
+struct SweepScheme {
+  const double* u = nullptr;     ///< with ghosts
+  const double* flux = nullptr;  ///< Model I: c_hat u, with ghosts
+  double* rate = nullptr;        ///< [N] and up to the next multiple of eight
+};
+
+/// Particles of a sweep: begin .. end - 1, begin a multiple of eight. All arrays are readable at the windows' ghosts.
+struct SweepRange {
+  const double* x;
+  double delta, inside;
+  std::ptrdiff_t begin, end;
+};
+
+/// Model I, (2.9) and (2.11).
+struct UpwindSweep {
+  SweepKernel kernel;
+  const double* c_hat;    ///< relative velocity
+  const double* b_prime;  ///< of the local form
+  const double* c;        ///< of the nonlocal form
+  const double* b;        ///< of the nonlocal form, with ghosts
+  SweepScheme local, nonlocal;
+};
+
+/// Most modes that midpoint velocities may have; more are not worth their products.
+inline constexpr int most_modes = 4;
+
+/// A trigonometric field a_0 + sum_n (cosine_n cos(n w x) + sine_n sin(n w x)) over the modes of a sweep.
+struct SweepField {
+  double constant = 0.0;
+  double cosine[most_modes] = {}, sine[most_modes] = {};
+};
+
+/// Model II, (3.8) and (3.10).
+///
+/// A mode of the midpoint is a sum of products over the two particles, cos(n w (x + y)/2) = C(x) C(y) - S(x) S(y) with
+/// C(x) = cos(n w x/2), S(x) = sin(n w x/2).
+struct SymmetricSweep {
+  SweepKernel kernel;
+  double mu;
+  int modes;
+  const double* half_cosine[most_modes];  ///< C of each mode, with ghosts
+  const double* half_sine[most_modes];    ///< S
+  SweepField c_hat, b;
+  const double* b_prime;  ///< of the local form
+  SweepScheme local, nonlocal;
+};
+
+/// A matrix of rates on particles that stand still: rows together as many at a time as there are lanes, diagonal after
+/// diagonal, so that everything is read with unit stride.
+struct BandedMatrix {
+  struct Block {
+    std::ptrdiff_t begin;  ///< of its values
+    std::ptrdiff_t first;  ///< lowest offset from a row to a column
+    std::ptrdiff_t width;  ///< number of diagonals
+  };
+  std::vector<Block> blocks;
+  std::vector<double> value;  ///< [diagonal][lane] of each block, zero where a row has nothing
+  std::ptrdiff_t reach = 0;   ///< largest offset from a row to a column, padding included
+
+  /// @param lanes  rows of a block
+  BandedMatrix(const RateMatrix& R, int lanes);
+};
+
+/// The sweeps of one instruction set. They return the number of pairs.
+struct Sweeps {
+  const char* name;  ///< "x86-64-v4", ...
+  int lanes;         ///< particles at a time
+  std::int64_t (*upwind)(const SweepRange&, const UpwindSweep&);
+  std::int64_t (*symmetric)(const SweepRange&, const SymmetricSweep&);
+  /// rate = R u for blocks begin .. end - 1 of a BandedMatrix, u with ghosts.
+  void (*banded)(const BandedMatrix::Block* blocks, const double* value, const double* u, double* rate,
+                 std::ptrdiff_t begin, std::ptrdiff_t end);
+};
+
+/// The widest that this processor has; ACSTUDY_VECTOR in the environment names another one.
+/// @throws std::runtime_error if it names one that there is not
+const Sweeps& sweeps();
+
+}  // namespace acstudy

@@ -1,0 +1,15 @@
+// Compiled once per instruction set; ACSTUDY_ISA and ACSTUDY_ISA_NAME are given on the command line.
+
+#include "solver/vector/banded.hpp"
+#include "solver/vector/sweeps.hpp"
+#include "solver/vector/symmetric.hpp"
+#include "solver/vector/upwind.hpp"
+
+namespace acstudy {
+inline namespace ACSTUDY_ISA {
+
+extern const Sweeps table;
+const Sweeps table = {ACSTUDY_ISA_NAME, lane_count, upwind_sweep, symmetric_sweep, banded_sweep};
+
+}  // namespace ACSTUDY_ISA
+}  // namespace acstudy

@@ -1,0 +1,59 @@
+#include "studies/outcome.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "studies/operator.hpp"
+
+namespace acstudy {
+
+Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
+                 std::span<const double> u_exact) {
+  const std::size_t count = x.size();
+  Errors errors;
+  for (std::size_t j = 0; j < count; ++j) {
+    const double right = j + 1 < count ? x[j + 1] : x[0] + scene.period();
+    const double left = j > 0 ? x[j - 1] : x[count - 1] - scene.period();
+    const double error = std::abs(u[j] - u_exact[j]), width = 0.5 * (right - left);
+    // Once NaN, it stays: no comparison with a NaN is true.
+    if (std::isnan(error) || error > errors.linf) errors.linf = error;
+    errors.l1 += width * error;
+    errors.l2 = std::hypot(errors.l2, std::sqrt(width) * error);  // a square of an error may overflow
+  }
+  errors.l1 /= scene.period();
+  errors.l2 /= std::sqrt(scene.period());
+  return errors;
+}
+
+void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std::span<const double> u, double t,
+              double solution_at_first, const std::function<std::span<const double>(double)>& positions) {
+  const Scene& scene = *c.scene;
+  result.blow_up = growth.blow_up();
+  const bool to_the_end = result.failure.empty() && result.blow_up.empty();
+  result.last = growth.last();
+  const double end = to_the_end ? scene.T() : result.blow_up.empty() ? t : result.last.time;
+  const auto x = positions(end);
+  result.x.assign(x.begin(), x.end());
+  result.u.assign(u.begin(), u.end());
+  result.u_exact.resize(u.size());
+  scene.u(x, end, result.u_exact);
+  result.solution_linf = std::max(solution_at_first, max_norm(result.u_exact));
+  const Errors errors = errors_of(scene, result.x, result.u, result.u_exact);
+  if (to_the_end) {
+    result.error_linf = errors.linf;
+    result.error_l1 = errors.l1;
+    result.error_l2 = errors.l2;
+    if (!std::isfinite(errors.linf)) result.blow_up = "the error is not finite at T";
+  } else {
+    result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
+    result.last.error_linf = errors.linf;
+    result.last.error_l1 = errors.l1;
+    result.last.error_l2 = errors.l2;
+    result.last.step = result.blow_up.empty() ? result.steps : result.last.step;
+    result.last.time = end;
+    if (result.last.particle >= 0) result.last.place = result.x[static_cast<std::size_t>(result.last.particle)];
+  }
+}
+
+}  // namespace acstudy

@@ -1,0 +1,190 @@
+#include "studies/shared_particles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "studies/stopwatch.hpp"
+
+namespace acstudy {
+
+namespace {
+
+/// Longer series cost more than the expressions that they stand for.
+constexpr std::size_t most_series_modes = 16;
+
+/// e^{i n w x/2} from e^{i w x/2}, by its real and imaginary part.
+void powers_of_phases(const double* cosine, const double* sine, std::ptrdiff_t count, int n, double* power_cosine,
+                      double* power_sine) {
+  std::copy_n(cosine, count, power_cosine);
+  std::copy_n(sine, count, power_sine);
+  for (int power = 1; power < n; ++power) {
+    for (std::ptrdiff_t j = 0; j < count; ++j) {
+      const double real = power_cosine[j] * cosine[j] - power_sine[j] * sine[j];
+      power_sine[j] = power_sine[j] * cosine[j] + power_cosine[j] * sine[j];
+      power_cosine[j] = real;
+    }
+  }
+}
+
+}  // namespace
+
+VelocitySeries::VelocitySeries(const Scene& scene) {
+  const auto series = [&](const Field& field) {
+    return trigonometric_series(field, scene.period(), most_series_modes);
+  };
+  c = series([&](auto x, auto out) { scene.c(x, out); });
+  if (scene.standing()) return;
+  b = series([&](auto x, auto out) { scene.b(x, out); });
+  b_prime = series([&](auto x, auto out) { scene.b_prime(x, out); });
+}
+
+std::optional<MidpointModes> midpoint_modes(const Scene& scene) {
+  const VelocitySeries velocity(scene);
+  const TrigonometricSeries nothing;
+  const TrigonometricSeries& b = velocity.b ? *velocity.b : nothing;
+  if (!velocity.c || (!scene.standing() && !velocity.b)) return std::nullopt;
+  const TrigonometricSeries& c = *velocity.c;
+  MidpointModes modes;
+  modes.c_hat.constant = c.constant - b.constant;
+  modes.b.constant = b.constant;
+  const auto at = [](const std::vector<double>& values, std::size_t i) { return i < values.size() ? values[i] : 0.0; };
+  for (std::size_t i = 0; i < std::max(c.highest(), b.highest()); ++i) {
+    const double c_cosine = at(c.cosine, i), c_sine = at(c.sine, i), b_cosine = at(b.cosine, i), b_sine = at(b.sine, i);
+    if (c_cosine == 0.0 && c_sine == 0.0 && b_cosine == 0.0 && b_sine == 0.0) continue;
+    const std::size_t k = modes.number.size();
+    if (k == most_modes) return std::nullopt;
+    modes.number.push_back(static_cast<int>(i) + 1);
+    modes.c_hat.cosine[k] = c_cosine - b_cosine;
+    modes.c_hat.sine[k] = c_sine - b_sine;
+    modes.b.cosine[k] = b_cosine;
+    modes.b.sine[k] = b_sine;
+  }
+  return modes;
+}
+
+SharedParticles::SharedParticles(const Scene& scene, std::vector<double> start, Needs needs, Team& team)
+    : x(start.size()),
+      scene_(scene),
+      needs_(needs),
+      team_(team),
+      series_(scene),
+      start_(std::move(start)),
+      wrapped_(std::min<std::ptrdiff_t>(32, x.margin())) {
+  if (!scene.standing()) trajectories_.emplace(scene, start_);
+  const std::size_t count = start_.size();
+  if (needs.midpoints) {
+    modes = midpoint_modes(scene);
+    mode_cosine.assign(modes->number.size(), PeriodicArray(count));
+    mode_sine = mode_cosine;
+  }
+  if (needs.velocities) {
+    for (PeriodicArray* field : {&c, &b, &c_hat}) *field = PeriodicArray(count);
+  }
+  if (needs.b_prime) b_prime = PeriodicArray(count);
+  const bool by_series = (needs.velocities && (series_.c || series_.b)) || (needs.b_prime && series_.b_prime);
+  needs_.phases = needs.phases || needs.midpoints || by_series;
+  if (needs_.phases) {
+    half_cosine_ = PeriodicArray(count);
+    half_sine_ = PeriodicArray(count);
+  }
+}
+
+std::span<const double> SharedParticles::positions(double t) {
+  return trajectories_ ? trajectories_->at(t) : std::span<const double>(start_);
+}
+
+bool SharedParticles::move(double t) {
+  if (t == t_ || (t_ >= 0.0 && !trajectories_)) return false;
+  const bool each_alone = trajectories_ && trajectories_->closed_form() && t != 0.0;
+  timed(positions_seconds, [&] {
+    if (each_alone) {
+      team_.each(std::ssize(x), 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        trajectories_->at(t, begin, x.values().subspan(begin, end - begin));
+      });
+    } else {
+      const auto now = positions(t);
+      std::copy(now.begin(), now.end(), x.values().begin());
+    }
+    wrap_positions();
+    double smallest = x[1] - x[0];
+    for (std::ptrdiff_t j = 0; j < std::ssize(x); ++j) smallest = std::min(smallest, x[j + 1] - x[j]);
+    // not (smallest <= 0), so that NaN is refused
+    if (!(smallest > 0.0)) {
+      throw std::domain_error("particles have crossed: positions no longer increase within one period");
+    }
+    smallest_gap_ = smallest;
+  });
+  timed(velocities_seconds, [&] {
+    team_.each(std::ssize(x), 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) { fill(begin, end); });
+    wrap_fields();
+  });
+  t_ = t;
+  ++times_moved_;
+  return true;
+}
+
+void SharedParticles::fill(std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto part = [&](PeriodicArray& field) { return field.values().subspan(begin, end - begin); };
+  if (needs_.phases) half_phases(part(x), scene_.period(), part(half_cosine_), part(half_sine_));
+  const auto evaluate = [&](const std::optional<TrigonometricSeries>& series, PeriodicArray& field, auto&& directly) {
+    if (series) {
+      series->evaluate({part(half_cosine_), part(half_sine_)}, part(field));
+    } else {
+      directly(part(x), part(field));
+    }
+  };
+  if (needs_.velocities) {
+    evaluate(series_.c, c, [&](auto at, auto out) { scene_.c(at, out); });
+    if (!scene_.standing()) evaluate(series_.b, b, [&](auto at, auto out) { scene_.b(at, out); });
+    for (std::ptrdiff_t j = begin; j < end; ++j) c_hat[j] = c[j] - b[j];
+  }
+  if (needs_.b_prime) evaluate(series_.b_prime, b_prime, [&](auto at, auto out) { scene_.b_prime(at, out); });
+  if (!needs_.midpoints) return;
+  for (std::size_t k = 0; k < modes->number.size(); ++k) {
+    powers_of_phases(half_cosine_.at(begin), half_sine_.at(begin), end - begin, modes->number[k],
+                     &mode_cosine[k][begin], &mode_sine[k][begin]);
+  }
+}
+
+void SharedParticles::wrap_positions() {
+  // As far as the windows reached so far; if they have grown, twice as far.
+  for (;; wrapped_ = std::min(2 * wrapped_, x.margin())) {
+    x.wrap(wrapped_, scene_.period());
+    if (wrapped_ == x.margin() || reach(needs_.inside) < wrapped_) return;
+  }
+}
+
+void SharedParticles::wrap_fields() {
+  const std::ptrdiff_t reach = this->reach(needs_.inside), lanes = sweeps().lanes;
+  if (needs_.velocities) {
+    b.wrap(reach);
+    // What a particle needs of itself alone is read up to the end of a vector.
+    c.wrap(lanes);
+    c_hat.wrap(lanes);
+  }
+  if (needs_.b_prime) b_prime.wrap(lanes);
+  for (std::size_t k = 0; k < mode_cosine.size(); ++k) {
+    for (PeriodicArray* field : {&mode_cosine[k], &mode_sine[k]}) {
+      modes->number[k] % 2 == 0 ? field->wrap(reach) : field->wrap_alternating(reach);
+    }
+  }
+}
+
+double SharedParticles::place_of_smallest_gap() const {
+  std::ptrdiff_t j = 0;
+  while (x[j + 1] - x[j] != smallest_gap_) ++j;
+  return x[j];
+}
+
+std::ptrdiff_t SharedParticles::reach(double inside) const {
+  // A vector of particles may begin at the last one, and every walk looks at one neighbor beyond its window.
+  const std::ptrdiff_t n = std::ssize(x), last = n + sweeps().lanes;
+  std::ptrdiff_t right = last, left = 0;
+  while (right + 2 < n + wrapped_ && x[right] - x[last] <= inside) ++right;
+  while (left - 2 > -wrapped_ && x[0] - x[left] <= inside) --left;
+  return std::max(right + 2 - n, 2 - left);
+}
+
+}  // namespace acstudy

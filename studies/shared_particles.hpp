@@ -1,0 +1,90 @@
+#pragma once
+
+/// @file
+/// The particles of several cases, with what all their sweeps see: positions, velocities, phases.
+
+#include <optional>
+#include <vector>
+
+#include "mms/scene.hpp"
+#include "mms/trigonometric.hpp"
+#include "solver/particles.hpp"
+#include "solver/vector/sweeps.hpp"
+#include "studies/team.hpp"
+
+namespace acstudy {
+
+/// The velocities of a scene as short trigonometric series, where they are such.
+struct VelocitySeries {
+  std::optional<TrigonometricSeries> c, b, b_prime;
+  explicit VelocitySeries(const Scene& scene);
+};
+
+/// The modes that c_hat and b have at midpoints.
+struct MidpointModes {
+  std::vector<int> number;  ///< n of each, rising; at most `most_modes`
+  SweepField c_hat, b;
+};
+/// None where the velocities are no series of few enough modes.
+std::optional<MidpointModes> midpoint_modes(const Scene& scene);
+
+/// What the sweeps of some cases need at the particles.
+struct Needs {
+  bool velocities = false;  ///< c, b and c_hat (Model I)
+  bool b_prime = false;     ///< (local divergence)
+  bool midpoints = false;   ///< (Model II)
+  bool phases = false;      ///< (sources that are series)
+  double inside = 0.0;      ///< the largest distance at which neighbors are seen
+};
+
+class SharedParticles {
+ public:
+  /// @param scene  outlives the particles
+  SharedParticles(const Scene& scene, std::vector<double> start, Needs needs, Team& team);
+
+  /// Takes the particles to time t and computes what is needed there; nothing if they are there already.
+  /// @return whether they were not
+  /// @throws std::domain_error if particles have crossed, or the flow cannot be integrated
+  bool move(double t);
+  /// Positions at time t, for a look at the solution.
+  std::span<const double> positions(double t);
+
+  std::size_t size() const { return x.size(); }
+  const Scene& scene() const { return scene_; }
+  HalfPhases phases() const { return {half_cosine_.values(), half_sine_.values()}; }
+  /// The smallest gap now, and where it begins.
+  struct Gap {
+    double width, place;
+  };
+  double smallest_gap() const { return smallest_gap_; }
+  double place_of_smallest_gap() const;
+  /// How far ghosts have to reach for sums with neighbors up to `inside`, at most as far as was said to be needed.
+  std::ptrdiff_t reach(double inside) const;
+  std::int64_t times_moved() const { return times_moved_; }
+
+  // with ghosts
+  PeriodicArray x;
+  PeriodicArray c, b, b_prime, c_hat;
+  std::optional<MidpointModes> modes;
+  std::vector<PeriodicArray> mode_cosine, mode_sine;  ///< cos(n w x/2) and sin(n w x/2) of each of `modes`
+
+  double positions_seconds = 0.0, velocities_seconds = 0.0;
+
+ private:
+  void fill(std::ptrdiff_t begin, std::ptrdiff_t end);
+  void wrap_positions();
+  void wrap_fields();
+
+  const Scene& scene_;
+  Needs needs_;
+  Team& team_;
+  VelocitySeries series_;
+  std::optional<Trajectories> trajectories_;  ///< none where particles stand still
+  std::vector<double> start_;
+  PeriodicArray half_cosine_, half_sine_;
+  double t_ = -1.0, smallest_gap_ = 0.0;
+  std::ptrdiff_t wrapped_;  ///< ghosts of x at each end
+  std::int64_t times_moved_ = 0;
+};
+
+}  // namespace acstudy

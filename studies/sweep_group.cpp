@@ -1,0 +1,152 @@
+#include "studies/sweep_group.hpp"
+
+#include <atomic>
+#include <variant>
+
+#include "studies/kernel_choice.hpp"
+#include "studies/scheme.hpp"
+#include "studies/stopwatch.hpp"
+
+namespace acstudy {
+
+struct SweepGroup::Kernel {
+  std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel> kernel;
+  SweepKernel sweep;
+
+  explicit Kernel(const KernelChoice& choice)
+      : kernel(with_kernel(choice, [](const auto& k) -> decltype(kernel) { return k; })) {
+    std::visit(
+        [&]<class K>(const K& k) {
+          if constexpr (std::is_same_v<K, InverseKernel>) {
+            sweep.form = SweepKernel::Form::inverse;
+          } else if constexpr (std::is_same_v<K, CubicSplineKernel>) {
+            sweep.form = SweepKernel::Form::cubic_spline;
+          } else {
+            sweep.form = SweepKernel::Form::scalar;
+          }
+          sweep.kernel = &k;
+          sweep.first_moment = [](const void* itself, const Cell& cell) {
+            return static_cast<const K*>(itself)->first_moment(cell);
+          };
+          if constexpr (IntegrableKernel<K>) {
+            sweep.mass = [](const void* itself, const Cell& cell) { return static_cast<const K*>(itself)->mass(cell); };
+          }
+        },
+        kernel);
+  }
+};
+
+double inside_of(double delta, double period) {
+  return delta * (1.0 + horizon_tie_tolerance) + 4.0 * std::numeric_limits<double>::epsilon() * period;
+}
+
+SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
+    : particles_(particles),
+      kernel_(std::make_unique<Kernel>(c.scheme.kernel)),
+      model_(c.scheme.model),
+      delta_(c.delta),
+      inside_(inside_of(c.delta, c.scene->period())),
+      mu_(c.mu),
+      kernel_label_(c.scheme.kernel.label()) {
+  if (!c.scene->standing()) return;
+  const std::unique_ptr<Scheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
+  Particles at_rest(particles.size(), c.scene->period(), c.delta);
+  at_rest.place(particles.x.values());
+  readable->place(at_rest);
+  RateMatrix R;
+  readable->matrix(R);
+  standing_ = std::make_unique<BandedMatrix>(R, sweeps().lanes);
+  standing_pairs_ = std::ssize(R.value) - std::ssize(particles.x);
+  work_.weight_builds = 1;
+}
+
+SweepGroup::~SweepGroup() = default;
+SweepGroup::SweepGroup(SweepGroup&&) noexcept = default;
+
+bool SweepGroup::takes(const Case& c) const {
+  const SweptValues* const there = c.scheme.nonlocal_divergence ? nonlocal_ : local_;
+  return there == nullptr && c.scheme.model == model_ && c.delta == delta_ && c.mu == mu_ &&
+         c.scheme.kernel.label() == kernel_label_;
+}
+
+void SweepGroup::add(const Case& c, SweptValues& values) {
+  // Where particles stand still the two are one and the same; each has its own place all the same.
+  (c.scheme.nonlocal_divergence ? nonlocal_ : local_) = &values;
+}
+
+void SweepGroup::remove(const SweptValues& values) {
+  if (local_ == &values) local_ = nullptr;
+  if (nonlocal_ == &values) nonlocal_ = nullptr;
+}
+
+void SweepGroup::rates(Team& team) {
+  timed(seconds, [&] { standing_ ? sweep_standing(team) : sweep_moving(team); });
+}
+
+void SweepGroup::sweep_standing(Team& team) {
+  const std::ptrdiff_t lanes = sweeps().lanes;
+  for (SweptValues* values : {local_, nonlocal_}) {
+    if (values == nullptr) continue;
+    values->u.wrap(standing_->reach);
+    team.each(std::ssize(standing_->blocks), 64 / lanes, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      sweeps().banded(standing_->blocks.data(), standing_->value.data(), values->u.at(0), values->rate.data(), begin,
+                      end);
+    });
+  }
+  work_.pairs += standing_pairs_;
+}
+
+void SweepGroup::sweep_moving(Team& team) {
+  const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(inside_), lanes = sweeps().lanes;
+  const auto scheme = [&](SweptValues* values) {
+    SweepScheme swept;
+    if (values == nullptr) return swept;
+    if (model_ == 1) {
+      for (std::ptrdiff_t j = 0; j < count; ++j) values->flux[j] = particles_.c_hat[j] * values->u[j];
+      values->flux.wrap(reach);
+      swept.flux = values->flux.at(0);
+    }
+    values->u.wrap(model_ == 1 ? lanes : reach);
+    swept.u = values->u.at(0);
+    swept.rate = values->rate.data();
+    return swept;
+  };
+  const auto begin_of = [](const PeriodicArray& field) { return field.size() > 0 ? field.at(0) : nullptr; };
+  const SweepScheme local = scheme(local_), nonlocal = scheme(nonlocal_);
+  SweepRange whole{particles_.x.at(0), delta_, inside_, 0, count};
+  std::atomic<std::int64_t> pairs{0};
+  const auto each_range = [&](const auto& sweep, auto run) {
+    team.each(count, 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      SweepRange range = whole;
+      range.begin = begin;
+      range.end = end;
+      pairs += run(range, sweep);
+    });
+  };
+  if (model_ == 1) {
+    each_range(UpwindSweep{kernel_->sweep, begin_of(particles_.c_hat), begin_of(particles_.b_prime),
+                           begin_of(particles_.c), begin_of(particles_.b), local, nonlocal},
+               sweeps().upwind);
+  } else {
+    const MidpointModes& modes = *particles_.modes;
+    SymmetricSweep sweep{.kernel = kernel_->sweep,
+                         .mu = mu_,
+                         .modes = static_cast<int>(modes.number.size()),
+                         .half_cosine = {},
+                         .half_sine = {},
+                         .c_hat = modes.c_hat,
+                         .b = modes.b,
+                         .b_prime = begin_of(particles_.b_prime),
+                         .local = local,
+                         .nonlocal = nonlocal};
+    for (int k = 0; k < sweep.modes; ++k) {
+      sweep.half_cosine[k] = particles_.mode_cosine[k].at(0);
+      sweep.half_sine[k] = particles_.mode_sine[k].at(0);
+    }
+    each_range(sweep, sweeps().symmetric);
+  }
+  work_.pairs += pairs;
+  ++work_.weight_builds;
+}
+
+}  // namespace acstudy

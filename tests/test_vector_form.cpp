@@ -1,0 +1,299 @@
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+
+#include "studies/ensemble.hpp"
+#include "studies/scheme.hpp"
+#include "studies/sweep_group.hpp"
+#include "tests/catch.hpp"
+#include "tests/irregular_particles.hpp"
+#include "tests/named_scene.hpp"
+
+using namespace acstudy;
+using namespace acstudy::test;
+
+namespace {
+
+/// sum of a few modes with random coefficients
+std::string random_field(std::mt19937& generator, std::initializer_list<int> modes) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::string text = std::to_string(uniform(generator));
+  for (const int n : modes) {
+    text += " + " + std::to_string(uniform(generator)) + "*sin(" + std::to_string(n) + "*x)";
+    text += " + " + std::to_string(uniform(generator)) + "*cos(" + std::to_string(n) + "*x)";
+  }
+  return text;
+}
+
+std::shared_ptr<const Scene> random_scene(unsigned seed) {
+  std::mt19937 generator(seed);
+  const std::string c = random_field(generator, {1, 3}), b = random_field(generator, {1, 2});
+  return std::make_shared<const Scene>(
+      SceneText{.name = {}, .period = "2*pi", .T = "1", .c = c, .b = b, .u = "cos(x - t)", .flow = {}});
+}
+
+struct Swept {
+  std::vector<double> rate;
+  std::int64_t pairs;
+};
+
+Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector<double>& u, bool with_twin,
+                  int threads = 1) {
+  Team team(threads);
+  SharedParticles particles(*c.scene, x,
+                            {.velocities = true,
+                             .b_prime = true,
+                             .midpoints = c.scheme.model == 2,
+                             .phases = true,
+                             .inside = inside_of(c.delta, c.scene->period())},
+                            team);
+  particles.move(0.0);
+  SweepGroup group(c, particles);
+  const auto values = [&] {
+    SweptValues v{PeriodicArray(x.size()), PeriodicArray(x.size()), std::vector<double>(x.size() + 16)};
+    std::copy(u.begin(), u.end(), v.u.values().begin());
+    return v;
+  };
+  SweptValues its_values = values(), of_twin = values();
+  group.add(c, its_values);
+  Case twin = c;
+  twin.scheme.nonlocal_divergence = !twin.scheme.nonlocal_divergence;
+  if (with_twin) group.add(twin, of_twin);
+  group.rates(team);
+  its_values.rate.resize(x.size());
+  return {its_values.rate, group.work().pairs};
+}
+
+Swept readable_rates(const Case& c, const std::vector<double>& x, const std::vector<double>& u) {
+  const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
+  const Particles particles = placed(x, c.scene->period(), c.delta);
+  scheme->place(particles);
+  Swept swept{rates(*scheme, u), 0};
+  swept.pairs = scheme->work().pairs;
+  return swept;
+}
+
+constexpr const char* all_kernels[] = {"inverse", "cubic-spline", "power"};
+
+template <class Check>
+void for_each_case(Check check) {
+  unsigned seed = 0;
+  for (const std::size_t N : {3, 7, 40, 165}) {
+    const auto scene = random_scene(++seed);
+    const double period = scene->period(), h = period / static_cast<double>(N);
+    for (const int model : {1, 2}) {
+      for (const bool nonlocal : {false, true}) {
+        for (const char* const kernel : all_kernels) {
+          for (const double alpha : {0.5, -1.0, 1.5}) {
+            if (std::string(kernel) != "power" && alpha != 0.5) continue;
+            const KernelChoice choice{kernel, std::string(kernel) == "power" ? alpha : 0.0};
+            if (model == 2 && !integrable(choice)) continue;
+            for (const double delta : {1e-3 * h, 1.3 * h, 4.7 * h, 0.31 * period, 0.49 * period}) {
+              if (delta >= 0.5 * period) continue;
+              const Case c{.scene = scene,
+                           .scheme = {model, nonlocal, choice, {}, {}},
+                           .mu = model == 2 ? 2.5 : 0.0,
+                           .nonlocal_source = false,
+                           .source_rule = SourceRule::gauss,
+                           .integrator = &forward_euler,
+                           .N = static_cast<std::int64_t>(N),
+                           .h = h,
+                           .delta = delta,
+                           .dt = 1e-3,
+                           .steps = 10};
+              seed += 2;
+              check(c, irregular_positions(N, period, seed), irregular_values(N, seed + 1));
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("The vector form has the readable form's rates and pairs, for random scenes, particles and kernels",
+          "[vector]") {
+  for_each_case([](const Case& c, const std::vector<double>& x, const std::vector<double>& u) {
+    CAPTURE(c.key());
+    const Swept expected = readable_rates(c, x, u);
+    for (const bool with_twin : {false, true}) {
+      const Swept swept = swept_rates(c, x, u, with_twin);
+      CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+      CHECK(swept.pairs == expected.pairs);
+    }
+  });
+}
+
+TEST_CASE("A neighbor at the horizon counts in the vector form as it does in the readable one", "[vector]") {
+  // On the uniform start with delta = 4h every particle ties.
+  const auto scene = random_scene(77);
+  constexpr std::size_t N = 64;
+  const double h = scene->period() / N;
+  for (const int model : {1, 2}) {
+    Case c{.scene = scene,
+           .scheme = {model, true, {"cubic-spline"}, {}, {}},
+           .mu = 2.0,
+           .nonlocal_source = false,
+           .source_rule = SourceRule::gauss,
+           .integrator = &forward_euler,
+           .N = N,
+           .h = h,
+           .delta = 4.0 * h,
+           .dt = 1e-3,
+           .steps = 10};
+    const auto x = uniform_positions(N, scene->period());
+    const auto u = irregular_values(N, 5);
+    const Swept expected = readable_rates(c, x, u), swept = swept_rates(c, x, u, false);
+    CHECK(swept.pairs == expected.pairs);
+    CHECK(expected.pairs == static_cast<std::int64_t>(4 * N * (model == 1 ? 1 : 2)));
+    CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+    // the comparison sees a horizon that is short of the tie
+    c.delta *= 1.0 - 1e-9;
+    CHECK(relative_gap(swept_rates(c, x, u, false).rate, expected.rate) > 1e-3);
+  }
+}
+
+TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
+  const auto scene = random_scene(5);
+  constexpr std::size_t N = 1000;
+  for (const int model : {1, 2}) {
+    const Case c{.scene = scene,
+                 .scheme = {model, false, {"cubic-spline"}, {}, {}},
+                 .mu = 2.0,
+                 .nonlocal_source = false,
+                 .source_rule = SourceRule::gauss,
+                 .integrator = &forward_euler,
+                 .N = N,
+                 .h = scene->period() / N,
+                 .delta = 0.1,
+                 .dt = 1e-3,
+                 .steps = 10};
+    const auto x = irregular_positions(N, scene->period(), 3);
+    const auto u = irregular_values(N, 4);
+    const Swept one = swept_rates(c, x, u, true, 1);
+    for (const int threads : {2, 3, 5}) {
+      const Swept several = swept_rates(c, x, u, true, threads);
+      CHECK(several.rate == one.rate);
+      CHECK(several.pairs == one.pairs);
+    }
+  }
+}
+
+namespace {
+
+CaseResult result_of(Case c, bool readable, int threads = 1) {
+  const std::atomic<bool> stop{false};
+  c.readable = readable;
+  return run_case(c, stop, 1, threads);
+}
+
+}  // namespace
+
+TEST_CASE("A run in the vector form ends where the readable one does, whatever the integrator, scene, source and start",
+          "[vector]") {
+  for (const char* const name : {"lee-du-2019", "standing-variable-velocity", "lagrangian"}) {
+    const auto scene = named_scene(name);
+    for (const Integrator& integrator : integrators) {
+      if (integrator.implicit()) continue;
+      for (const int model : {1, 2}) {
+        for (const bool nonlocal : {false, true}) {
+          for (const bool by_lemma : {false, true}) {
+            constexpr std::int64_t N = 50;
+            const double h = scene->period() / N;
+            Case c{.scene = scene,
+                   .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                   .mu = model == 2 ? 1.6 : 0.0,
+                   .nonlocal_source = nonlocal,
+                   .source_rule = SourceRule::gauss,
+                   .integrator = &integrator,
+                   .N = N,
+                   .h = h,
+                   .delta = 3.3 * h,
+                   .dt = scene->T() / 100,
+                   .steps = 100};
+            c.start = {.kind = Start::Kind::jittered, .smallest_gap = 0.3, .seed = 2};
+            if (by_lemma && scene->max_relative_velocity() > 0.0) {
+              c.step = {.bound = StepRule::Bound::lemma, .safety = 0.5, .text = "cfl"};
+            }
+            CAPTURE(c.key());
+            REQUIRE(runs_in_vector_form(c));
+            const CaseResult vector = result_of(c, false), readable = result_of(c, true);
+            CHECK(relative_gap(vector.u, readable.u) <= 1e-11);
+            CHECK(relative_gap(vector.x, readable.x) <= 1e-14);
+            CHECK(vector.steps == readable.steps);
+            CHECK(vector.work.pairs == readable.work.pairs);
+            CHECK(vector.against_bound.first_step == readable.against_bound.first_step);
+            CHECK(result_of(c, false, 3).u == vector.u);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("Cases that share their particles end as each would alone", "[vector]") {
+  const auto scene = named_scene("lee-du-2019");
+  std::vector<Case> cases;
+  for (const double delta : {0.02, 0.2}) {
+    for (const int model : {1, 2}) {
+      for (const bool nonlocal : {false, true}) {
+        for (const bool source : {false, true}) {
+          constexpr std::int64_t N = 120;
+          cases.push_back({.scene = scene,
+                           .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                           .mu = model == 2 ? 4.0 / 3.0 : 0.0,
+                           .nonlocal_source = source,
+                           .source_rule = SourceRule::gauss,
+                           .integrator = &forward_euler,
+                           .N = N,
+                           .h = scene->period() / N,
+                           .delta = delta,
+                           .dt = 1.0 / 160.0,
+                           .steps = 160});
+        }
+      }
+    }
+  }
+  std::vector<const Case*> together;
+  for (const Case& c : cases) {
+    together.push_back(&c);
+    CHECK(ensemble_key(c) == ensemble_key(cases.front()));
+  }
+  const std::atomic<bool> stop{false};
+  const std::vector<CaseResult> results = run_cases(together, stop);
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    CAPTURE(cases[i].key());
+    CHECK(results[i].u == result_of(cases[i], false).u);
+    seconds += results[i].seconds;
+  }
+  CHECK(seconds > 0.0);
+}
+
+TEST_CASE("A field that is no short trigonometric series keeps Model II in the readable form, and all the same runs",
+          "[vector]") {
+  const auto scene = std::make_shared<const Scene>(SceneText{.name = {},
+                                                             .period = "2*pi",
+                                                             .T = "1/4",
+                                                             .c = "exp(sin(x))/3",
+                                                             .b = "sin(x)/(2 + cos(x))",
+                                                             .u = "cos(x - t)",
+                                                             .flow = {}});
+  for (const int model : {1, 2}) {
+    const Case c{.scene = scene,
+                 .scheme = {model, true, {"cubic-spline"}, {}, {}},
+                 .mu = model == 2 ? 2.0 : 0.0,
+                 .nonlocal_source = true,
+                 .source_rule = SourceRule::gauss,
+                 .integrator = &forward_euler,
+                 .N = 60,
+                 .h = scene->period() / 60,
+                 .delta = 0.3,
+                 .dt = 1.0 / 240.0,
+                 .steps = 60};
+    CHECK(relative_gap(result_of(c, false).u, result_of(c, true).u) <= 1e-12);
+  }
+}

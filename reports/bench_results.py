@@ -27,7 +27,7 @@ class Spread:
     deviation: np.ndarray   # median absolute deviation from the median
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)     # arrays have no hash and no truth
 class Curve:
     """The cases of one scheme along one path with one number of threads, coarse to fine: arrays [n]."""
     studies: tuple          # that asked for some of these cases

@@ -17,8 +17,13 @@ import work_precision
 
 DEFAULT = "reports/out"
 KINDS = {"between": "{}", "coarsest": "< {}", "beyond": "~ {} *", "not": "not reached", "none": "no solution"}
-NOTE = ("`<`: already the coarsest level is better, in this time. `*`: extrapolated from the two finest levels, at most "
-        f"{work_precision.FARTHEST:g} times below the finest error; `not reached`: farther than that.")
+REACH_NOTE = ("`<`: already the coarsest level is better, in this time. `*`: extrapolated from the two finest levels, "
+              f"to {work_precision.FARTHEST:g} times the finest N at most; not reached: farther than that.")
+LAW_NOTE = ("delta/h counts as 1 below 1. Brackets: 95 % intervals, from resampled cases; rms: how far cases are from "
+            f"the law. Left out: times below {1e3 * work_precision.SHORTEST:g} ms or with a deviation above "
+            f"{100 * work_precision.NOISE:g} %, and paths with a nonlocal source.")
+PRICE_NOTE = ("seconds = set-up + ns per update N steps stages + ns per pair pairs, fitted to the same paths, short "
+              "times included: how far work alone explains the time.")
 PART_NAMES = {"positions_seconds": "positions", "weights_seconds": "velocities, stored weights",
               "pairs_seconds": "weights and pair sums", "source_seconds": "source"}
 
@@ -44,23 +49,31 @@ def main(arguments):
 def tables(benches):
     """(title, header, rows, note) of every table that has rows."""
     curves = compared(benches)
-    found = [("Seconds to reach an error", *reach_table(curves), NOTE),
-             ("Law of cost: seconds and pairs ~ N^a (delta/h)^b", *law_table(curves),
-              "With 95 % intervals from resampled cases; delta/h counts as 1 below 1. rms: how far cases are from the "
-              f"law. Left out: times whose deviation is above {100 * work_precision.NOISE:g} %."),
+    found = [("Seconds to reach an error", *reach_table(curves), REACH_NOTE),
+             ("Law of cost: seconds and pairs ~ N^a (delta/h)^b", *law_table(curves), LAW_NOTE),
+             ("Prices of work", *price_table(curves), PRICE_NOTE),
              ("Where the time goes, in percent, at the largest N", *parts_table(curves), ""),
-             ("Threads", *thread_table(benches), "The ratio is of the medians of runs that took turns.")]
+             ("Threads", *thread_table(benches), "The ratio is of medians of runs that took turns.")]
     return [table for table in found if table[2]]
 
 
 def compared(benches):
-    """The curves whose errors are compared: one thread, no study of scaling, one way to step."""
-    return [curve for bench in benches for curve in bench.curves
-            if curve.threads == 1 and not curve.stepping and not any(map(bench_results.is_scaling, curve.studies))]
+    """The curves whose errors are compared, each once: one thread, no study of scaling, one way to step."""
+    found = {}
+    for bench in benches:
+        for curve in bench.curves:
+            if curve.threads == 1 and not curve.stepping and not any(map(bench_results.is_scaling, curve.studies)):
+                found.setdefault(_but_studies(curve), curve)
+    return list(found.values())
+
+
+def _but_studies(curve):
+    return (curve.scheme, curve.path, curve.delta_text, curve.source, curve.step_text, curve.integrator, curve.scene,
+            curve.T)
 
 
 def labels(curves):
-    """{curve: scheme}, with the steps where curves of one scheme differ in them."""
+    """What each curve is called but for its path: its scheme, with the steps where those of one scheme differ."""
     schemes = names.scheme_names(curve.scheme for curve in curves)
     steps = {}
     for curve in curves:
@@ -84,13 +97,21 @@ def reach_table(curves):
 def law_table(curves):
     rows = []
     texts = dict(zip(((curve.scheme, curve.step_text) for curve in curves), labels(curves)))
-    for key, (of_seconds, of_pairs) in work_precision.laws(curves).items():
-        if of_seconds and of_pairs:
-            rows.append((texts[key], exponent(of_seconds.a, of_seconds.a_interval),
-                         exponent(of_seconds.b, of_seconds.b_interval), f"{100 * of_seconds.rms:.0f} %",
-                         f"{of_seconds.cases}", f"{of_seconds.left_out}", exponent(of_pairs.a, of_pairs.a_interval),
-                         exponent(of_pairs.b, of_pairs.b_interval)))
+    for key, cost in work_precision.costs(curves).items():
+        law, of_pairs = cost.seconds, cost.pairs
+        if law and of_pairs:
+            rows.append((texts[key], exponent(law.a, law.a_interval), exponent(law.b, law.b_interval),
+                         f"{100 * law.rms:.0f} %", f"{law.cases}", f"{law.left_out}",
+                         exponent(of_pairs.a, of_pairs.a_interval), exponent(of_pairs.b, of_pairs.b_interval)))
     return ("scheme", "a, seconds", "b, seconds", "rms", "cases", "left out", "a, pairs", "b, pairs"), rows
+
+
+def price_table(curves):
+    texts = dict(zip(((curve.scheme, curve.step_text) for curve in curves), labels(curves)))
+    rows = [(texts[key], f"{1e3 * cost.prices.setup:.2g}", f"{1e9 * cost.prices.per_update:.2g}",
+             f"{1e9 * cost.prices.per_pair:.2g}", f"{100 * cost.prices.rms:.0f} %")
+            for key, cost in work_precision.costs(curves).items() if cost.prices]
+    return ("scheme", "set-up (ms)", "ns per update", "ns per pair", "rms"), rows
 
 
 def parts_table(curves):

@@ -14,7 +14,7 @@ from look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, ty
 import names
 import work_precision
 
-EFFICIENT = dict(color="#B8B8B8", linewidth=5.0, solid_capstyle="round", alpha=0.55, zorder=1)
+EFFICIENT = dict(linestyle="none", marker="o", markersize=13, markeredgewidth=0, color="#D3D3D3", zorder=1)
 # Positions, velocities, pair sums, source, rest: told apart by hatching too.
 FILLS = ((COLORS[1], ""), (COLORS[5], "////"), (COLORS[0], ""), (COLORS[2], "...."), ("#C8C8C8", ""))
 SLOPE = dict(color=GRAY, linewidth=0.8, zorder=2)
@@ -31,11 +31,11 @@ def drawings(benches, styles):
                     "Log-log plot of the max-norm error against run time, a panel per path. Values: tables below.",
                     "Seconds of the whole time loop with one thread: medians of runs that took turns; bars from the "
                     "minimum to the median plus twice the median absolute deviation, mostly smaller than the marker. "
-                    "Gray: the efficient frontier, the runs that no other run of the panel beats in both error and "
-                    "seconds."),
+                    "On gray: the efficient frontier, the runs that no other run of the panel beats in both "
+                    "error and seconds."),
             Drawing("bench.work", "Error against work", error_figure(compared, styles, "pairs"),
                     "Log-log plot of the max-norm error against the number of pair interactions, a panel per path.",
-                    "The same errors against pair interactions, which no machine disturbs. Gray: the efficient "
+                    "The same errors against pair interactions, which no machine disturbs. On gray: the efficient "
                     "frontier."),
             Drawing("bench.parts", "Where the time goes", parts_figure(compared),
                     "Stacked bars of the parts of the run time of each scheme and path. Values: table below.",
@@ -48,7 +48,7 @@ def drawings(benches, styles):
             "bench.scaling", "Scaling", scaling,
             "Log-log plots of seconds against N, against the horizon in spacings, and against threads.",
             "Seconds per step, of runs of a few steps including their set-up: against N, against the horizon at one N, "
-            "and against threads. Bars as above; thin lines: slopes 1 and 2, for threads the ideal."))
+            "and against threads. Bars as above; thin lines beside threads: the ideal."))
     return found
 
 
@@ -71,7 +71,7 @@ def error_figure(curves, styles, cost):
             panel = frame.axes
             panel.set_title(names.path_math(path))
             drawn = [points[curve] for curve in group]
-            _draw_frontier(panel, drawn)
+            _mark_frontier(panel, drawn)
             for curve, (costs, errors) in zip(group, drawn):
                 style = styles[curve.scheme]
                 bars = _bars(curve.seconds, costs) if cost == "seconds" else None
@@ -104,11 +104,10 @@ def _bars(spread, drawn, per=1.0):
     return [below, above]
 
 
-def _draw_frontier(panel, drawn):
+def _mark_frontier(panel, drawn):
     costs, errors = (np.concatenate([one[i] for one in drawn]) for i in (0, 1))
     efficient = work_precision.frontier(costs, errors)
-    order = np.argsort(costs[efficient])
-    panel.plot(costs[efficient][order], errors[efficient][order], **EFFICIENT)
+    panel.plot(costs[efficient], errors[efficient], **EFFICIENT)
 
 
 # ------------------------------------------------------------------------------------------------- where the time goes
@@ -121,7 +120,7 @@ def parts_figure(curves):
         groups = {}
         for curve, text in zip(curves, texts):
             groups.setdefault(text, []).append(curve)
-        bar, between, left, right, foot, above = 0.21, 0.16, 4.3, 1.15, 0.55, 0.45
+        bar, between, left, right, foot, above = 0.21, 0.16, 3.75, 1.15, 0.55, 0.45
         height = len(curves) * bar + (len(groups) - 1) * between
         figure = blank(above + height + foot)
         panel = add_axes(figure, left, foot, WIDTH - left - right, height, xlim=(0, 100), ylim=(height, 0))
@@ -202,21 +201,21 @@ def _per_step(panel, x, seconds, deviation, minimum, style, **more):
 
 
 def _draw_along_N(panel, curves, styles, inches):
-    every, steepest = [], {}
+    every, paths = [], {}
     for curve in curves:
         per_step = [values / curve.steps for values in (curve.seconds.median, curve.seconds.deviation,
                                                         curve.seconds.minimum)]
         _per_step(panel, curve.N, *per_step, styles[curve.scheme])
         every.append((curve.N, per_step[0]))
-        last = per_step[0][-1] / curve.N[-1]
-        if curve.path not in steepest or last > steepest[curve.path][0]:
-            steepest[curve.path] = (last, curve.N[-1], per_step[0][-1])
-    for path, (_, N, y) in steepest.items():
-        panel.annotate(names.path_math(path), (N, y), xytext=(-3, 6), textcoords="offset points", ha="right",
-                       fontsize=10)
+        paths.setdefault(curve.path, []).append((curve, per_step[0]))
     panel.set_title("$N$ at fixed horizon or ratio", fontsize=11)
     panel.set_xlabel("$N$")
-    _limits_and_slopes(panel, every, (1, 2), inches)
+    _limits(panel, every, inches)
+    for path, group in paths.items():
+        curve, highest = max(group, key=lambda one: one[1][-1])
+        panel.annotate(names.path_math(path), (curve.N[-1], highest[-1]), xytext=(-8, 0), textcoords="offset points",
+                       ha="right", va="center", fontsize=10)
+    _slopes(panel, (1, 2))
 
 
 def _draw_along_horizon(panel, groups, styles, inches):
@@ -231,7 +230,8 @@ def _draw_along_horizon(panel, groups, styles, inches):
     N = {int(curve.N[0]) for curves in groups.values() for curve in curves}
     panel.set_title(r"horizon at $N = %d$" % N.pop() if len(N) == 1 else "horizon", fontsize=11)
     panel.set_xlabel(r"$\delta/h$")
-    _limits_and_slopes(panel, every, (1,), inches)
+    _limits(panel, every, inches)
+    _slopes(panel, (1,))
 
 
 def _draw_along_threads(panel, pairs, styles, inches):
@@ -246,24 +246,29 @@ def _draw_along_threads(panel, pairs, styles, inches):
                               for n in threads]) for name in ("median", "deviation", "minimum")]
         _per_step(panel, threads, *per_step, styles[scheme])
         panel.plot(threads, per_step[0][0] / threads, **SLOPE)
-        panel.annotate(f"{names.path_math(path)}, $N={N}$", (threads[0], per_step[0][0]), xytext=(4, 6),
+        panel.annotate(f"{names.path_math(path)}, $N={N}$", (threads[0], per_step[0][0]), xytext=(7, 4),
                        textcoords="offset points", fontsize=9)
-        every.append((threads, per_step[0]))
-        every.append((threads, per_step[0][0] / threads))
+        every += [(threads, per_step[0]), (threads, per_step[0][0] / threads)]
     panel.set_title("threads within one case", fontsize=11)
     panel.set_xlabel("threads")
-    _limits_and_slopes(panel, every, (), inches)
+    _limits(panel, every, inches)
+    most = max(int(threads[-1]) for threads, _ in every)
+    shown = [2 ** k for k in range(most.bit_length()) if 2 ** k <= most]
+    panel.set_xticks(shown, [str(n) for n in shown])
 
 
-def _limits_and_slopes(panel, every, slopes, inches):
+def _limits(panel, every, inches):
     x, y = (np.concatenate([np.asarray(one[i], dtype=float) for one in every]) for i in (0, 1))
-    x_limits, y_limits = axes.padded(x, 0.09), axes.padded(y, 0.09)
-    lines = axes.references([(x, y)], slopes, x_limits, y_limits, inches) if slopes else []
-    for line in lines:
-        y_limits = (min(y_limits[0], 0.6 * line(line.middle())), y_limits[1])
-    axes.set_log_limits(panel, x_limits, y_limits, inches)
-    if lines:
-        for line in lines:
-            panel.plot((line.start, line.end), (line(line.start), line(line.end)), **SLOPE)
-            panel.annotate(f"slope {line.order:g}", (line.end, line(line.end)), xytext=(-2, -4), ha="right", va="top",
-                           textcoords="offset points", fontsize=9.5, color=GRAY)
+    axes.set_log_limits(panel, axes.padded(x, 0.09), axes.padded(y, 0.09), inches)
+
+
+def _slopes(panel, slopes):
+    """Short lines of these slopes in the lower right corner, which increasing curves leave free, with their names."""
+    decades = [math.log10(high / low) for low, high in (panel.get_xlim(), panel.get_ylim())]
+    across = min(0.2, 0.32 * decades[1] / decades[0] / max(slopes))
+    left, bottom = 0.78 - across, 0.05
+    for slope in slopes:
+        up = slope * across * decades[0] / decades[1]
+        panel.plot((left, left + across), (bottom, bottom + up), transform=panel.transAxes, **SLOPE)
+        panel.annotate(f"slope {slope}", (left + across, bottom + up), xycoords="axes fraction", xytext=(3, 0),
+                       textcoords="offset points", va="center", fontsize=9.5, color=GRAY)

@@ -16,7 +16,7 @@ is not."""
 def html(benches, drawings, links):
     """The page as text. `drawings`: rendered, of bench_figures; `links`: (address, name) of its navigation."""
     body = [_section("figures", "Figures", "".join(map(markup.figure, drawings)))]
-    for i, (title, header, rows, note) in enumerate(bench_tables.tables(benches)):
+    for i, (title, header, rows, note) in enumerate(bench_tables.page_tables(benches)):
         text = "".join(_row(cells) for cells in rows)
         body.append(_section(f"table-{i}", title, markup.table(map(escape, header), text, title) +
                              (f'<p class="note">{escape(note.replace("`", ""))}</p>\n' if note else "")))

@@ -2,7 +2,7 @@
 """Prints what benches measured as Markdown tables: python3 reports/bench_tables.py [OUT_DIR]
 
 OUT_DIR is the folder of the results, with the benches in OUT_DIR/bench*/bench.json. The tables: seconds to reach an
-error, the law of cost, where the time goes, threads.
+error, the law of cost, the prices of work, threads. Where the time goes is on the page of the report.
 Exit codes: 0 done; 2 no bench, or not one.
 """
 
@@ -47,14 +47,19 @@ def main(arguments):
 
 
 def tables(benches):
-    """(title, header, rows, note) of every table that has rows."""
+    """(title, header, rows, note) of every table that has rows; what is read better in a figure is left out."""
     curves = compared(benches)
     found = [("Seconds to reach an error", *reach_table(curves), REACH_NOTE),
              ("Law of cost: seconds and pairs ~ N^a (delta/h)^b", *law_table(curves), LAW_NOTE),
              ("Prices of work", *price_table(curves), PRICE_NOTE),
-             ("Where the time goes, in percent, at the largest N", *parts_table(curves), ""),
              ("Threads", *thread_table(benches), "The ratio is of medians of runs that took turns.")]
     return [table for table in found if table[2]]
+
+
+def page_tables(benches):
+    """The same for a page, which has room for all."""
+    parts = ("Where the time goes, in percent, at the largest N", *parts_table(compared(benches)), "")
+    return tables(benches) + ([parts] if parts[2] else [])
 
 
 def compared(benches):

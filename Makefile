@@ -21,7 +21,8 @@ gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
-	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  SETUP=off  PYTHON=...  CXX=...  COMPARE=--quick|--all"
+	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  SETUP=off  PYTHON=...  CXX=..."
+	@echo "             COMPARE=--quick|--all"
 
 # On a fresh machine the packages that draw are installed while the C++ compiles: half a minute less.
 # A verdict that departs (1) or a run that failed (3) is to be seen in the report too.
@@ -54,7 +55,7 @@ bench: build  ## error against run time with one case at a time, so that none di
 	$(setup) report
 	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/bench"
 
-compare: build  ## the same cases in NumPy, Octave and PySPH: errors have to be equal, run times are compared (some 10 minutes)
+compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and second by second (some 10 minutes)
 	$(setup) report
 	@python=$$(scripts/find-python.sh) && \
 	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \

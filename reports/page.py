@@ -4,6 +4,7 @@ from html import escape
 import math
 
 import claims
+import comparison
 import extremes_table
 import findings
 import markup
@@ -28,10 +29,11 @@ CASE_COLUMNS = ("<var>N</var>", "<var>h</var>", "<var>δ</var>", "Δ<var>t</var>
                 "quadrature points")
 
 
-def html(studies, drawings, cost=None, seeded=None):
+def html(studies, drawings, cost=None, seeded=None, compared=None):
     """The page as text.
 
-    `drawings`: {name of a study: its drawings}; `cost`: the drawing of the cost figure; `seeded`: mutants.read().
+    `drawings`: {name of a study: its drawings}; `cost`: the drawing of the cost figure; `seeded`: mutants.read();
+    `compared`: comparison.read().
     """
     body = [_summary(studies)]
     for study in studies:
@@ -40,9 +42,11 @@ def html(studies, drawings, cost=None, seeded=None):
     if cost:
         body.append('<section aria-labelledby="run-time">\n<h2 id="run-time">Error against run time</h2>\n'
                     f"{markup.figure(cost)}</section>\n")
+    body.append(comparison.section(compared))
     body.append(mutants.section(seeded))
     links = [("claims.html", "claim by claim"), *((f"#{study.name}", study.name) for study in studies)]
     links += [("#run-time", "run time")] if cost else []
+    links.append(("#comparison", "other programs"))
     links.append(("#seeded-mistakes", "seeded mistakes"))
     return markup.document(TITLE, ABOUT, links, "".join(body))
 

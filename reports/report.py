@@ -44,6 +44,7 @@ def main(arguments=None):
 def report(folder, files):
     """Draws every figure of the result files and the pages into `folder`; the path of the first page."""
     import claims
+    import comparison
     import drawing
     import figures
     import mutants
@@ -52,7 +53,7 @@ def report(folder, files):
 
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
-    seeded = mutants.read(folder)
+    seeded, compared = mutants.read(folder), comparison.read(folder)
     styles = figures.scheme_styles(studies)
     drawings = {}
     with closing(drawing.of_all(studies, styles)) as drawn_in_turn:
@@ -63,7 +64,7 @@ def report(folder, files):
             drawings[study.name if study else "cost"] = drawn
     cost = next(iter(drawings.pop("cost")), None)
     index = folder / "index.html"
-    _write(index, page.html(studies, drawings, cost, seeded).encode("utf-8"))
+    _write(index, page.html(studies, drawings, cost, seeded, compared).encode("utf-8"))
     _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
     return index
 

@@ -60,7 +60,7 @@ bench: build  ## error against run time: times every case alone, in turn, prints
 	$(setup) report
 	@python=$$(scripts/find-python.sh) && "$$python" reports/bench_tables.py "$(OUT)" && "$$python" reports/report.py "$(OUT)"
 
-compare: build  ## the same cases in NumPy, Octave and PySPH: errors have to be equal, run times are compared (some 10 minutes)
+compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and second by second (some 10 minutes)
 	$(setup) report
 	@python=$$(scripts/find-python.sh) && \
 	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \

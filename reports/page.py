@@ -5,6 +5,7 @@ import math
 
 import bench_page
 import claims
+import comparison
 import extremes_table
 import findings
 import markup
@@ -32,11 +33,11 @@ CASE_COLUMNS = ("<var>N</var>", "<var>h</var>", "<var>δ</var>", "Δ<var>t</var>
                 "quadrature points")
 
 
-def html(studies, drawings, cost=None, seeded=None, timed=False):
+def html(studies, drawings, cost=None, seeded=None, compared=None, timed=False):
     """The page as text.
 
     `drawings`: {name of a study: its drawings}; `cost`: the drawing of the cost figure; `seeded`: mutants.read();
-    `timed`: there is a page of benches.
+    `compared`: comparison.read(); `timed`: there is a page of benches.
     """
     body = [_summary(studies)]
     for study in studies:
@@ -45,9 +46,11 @@ def html(studies, drawings, cost=None, seeded=None, timed=False):
     if cost:
         body.append('<section aria-labelledby="run-time">\n<h2 id="run-time">Error against run time</h2>\n'
                     f"{markup.figure(cost)}{TIMED if timed else UNTIMED}</section>\n")
+    body.append(comparison.section(compared))
     body.append(mutants.section(seeded))
     links = [("claims.html", "claim by claim"), *([(bench_page.FILE, "error against run time")] if timed else []), *((f"#{study.name}", study.name) for study in studies)]
     links += [("#run-time", "run time")] if cost else []
+    links.append(("#comparison", "other programs"))
     links.append(("#seeded-mistakes", "seeded mistakes"))
     return markup.document(TITLE, ABOUT, links, "".join(body))
 

@@ -46,6 +46,7 @@ def report(folder, files):
     import bench_page
     import bench_results
     import claims
+    import comparison
     import drawing
     import figures
     import mutants
@@ -54,7 +55,7 @@ def report(folder, files):
 
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
-    seeded = mutants.read(folder)
+    seeded, compared = mutants.read(folder), comparison.read(folder)
     benches = bench_results.read_all(folder)
     styles = figures.scheme_styles(studies)
     drawings = {}
@@ -73,7 +74,7 @@ def report(folder, files):
     if not studies:
         return folder / bench_page.FILE
     index = folder / "index.html"
-    _write(index, page.html(studies, drawings, cost, seeded, bool(benches)).encode("utf-8"))
+    _write(index, page.html(studies, drawings, cost, seeded, compared, bool(benches)).encode("utf-8"))
     _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
     return index
 

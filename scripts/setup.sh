@@ -5,6 +5,7 @@
 #
 # Debian, Ubuntu: installs what is missing with apt-get, having said so; SETUP=off never installs.
 # Elsewhere: names what is missing, with its package for Homebrew, conda-forge and Fedora.
+# What make compare compares with is not needed and never installed: on Debian octave, python3-scipy, python3-pysph.
 # Exit: 0 all there, 2 usage, 4 something is missing.
 set -u
 here=$(dirname "$0")

@@ -20,7 +20,7 @@ import programs as known
 import selection
 import summary
 
-FORMAT = "acstudy comparison 1"
+FORMAT = "acstudy comparison 1"   # of what is stored
 FILE = "compare.json"
 LEVELS = {"quick": selection.coarsest, "default": selection.representative, "all": selection.every}
 
@@ -40,12 +40,12 @@ def main(arguments=None):
             found = read_comparison(options.out / FILE)
         else:
             with tempfile.TemporaryDirectory() as folder:
-                found, wrong = compare(options, Path(folder))
+                found = compare(options, Path(folder))
             write(options.out / FILE, found)
-            if wrong:
-                raise Failure(1, "\ncompare.py: ".join(wrong))
-        print(summary.markdown(summary.program_table(found["summary"])))
-        print(summary.markdown(summary.group_table(found["summary"])))
+        if found["wrong"]:
+            raise Failure(1, "\ncompare.py: ".join(found["wrong"]))
+        for table in found["tables"]:
+            print(summary.markdown(table))
         print(f"{len(found['rounds'])} rounds of {found['command']} on {found['machine']}")
         for program in found["programs"]:
             if program["missing"]:
@@ -86,7 +86,7 @@ def read_options(arguments):
 
 
 def compare(options, folder):
-    """(the comparison, as it is stored; a line for each thing that is wrong)."""
+    """The comparison, as it is stored; its tables are there unless an error is wrong."""
     if not os.access(options.acstudy, os.X_OK):
         raise Failure(4, f"{options.acstudy}: no such program; run make build, or name it with --acstudy")
     studies = [name for name in selection.STUDIES if name in options.studies]
@@ -120,9 +120,11 @@ def compare(options, folder):
     stated = [{"name": program.name, "label": program.label, "version": program.version, "loops": program.loops,
                "missing": program.missing or (None if taken[program.name] else "none of the cases is one for it")}
               for program in chosen]
+    summarized = None if wrong else summary.summarize(cases, stated, rounds)
     return {"format": FORMAT, "command": options.command, "machine": machine(processors), "level": options.level,
-            "cases": [asdict(case) for case in cases], "programs": stated, "rounds": rounds,
-            "summary": summary.summarize(cases, stated, rounds)}, list(dict.fromkeys(wrong))
+            "wrong": list(dict.fromkeys(wrong)), "summary": summarized,
+            "tables": [summary.program_table(summarized), summary.group_table(summarized)] if summarized else [],
+            "cases": [asdict(case) for case in cases], "programs": stated, "rounds": rounds}
 
 
 def reference_cases(acstudy, files, folder):

@@ -99,7 +99,7 @@ def said_seconds(seconds):
 
 
 def program_table(summary):
-    """(columns, rows) of the programs."""
+    """The table of the programs."""
     threads = any(row["threads_ratio"] for row in summary["programs"])
     columns = ["program", "cases", "time loops (s)", "whole process (s)", "loops, times acstudy",
                "process, times acstudy"] + (["process, times acstudy on all threads"] if threads else [])
@@ -108,11 +108,11 @@ def program_table(summary):
         rows.append([row["label"], str(row["cases"]), said_seconds(row["loop_seconds"]),
                      said_seconds(row["process_seconds"]), said_ratio(row["loop_ratio"]),
                      said_ratio(row["process_ratio"])] + ([said_ratio(row["threads_ratio"])] if threads else []))
-    return columns, rows
+    return {"title": "Programs", "columns": columns, "rows": rows}
 
 
 def group_table(summary):
-    """(columns, rows) of schemes, kernels and paths; programs that have no entry get no column."""
+    """The table of schemes, kernels and paths; programs that have no entry get no column."""
     shown = [row for row in summary["programs"] if any(row["name"] in group["ratios"] for group in summary["groups"])]
     columns = ["scheme, kernel, path", "N", "acstudy (s)", *(row["label"] for row in shown)]
     rows = []
@@ -121,10 +121,10 @@ def group_table(summary):
         rows.append([f"Model {'I' * group['model']}, {group['kernel']}, {group['path']}{standing}", str(group["N"]),
                      said_seconds(group["seconds"]),
                      *(said_ratio(group["ratios"].get(row["name"])) for row in shown)])
-    return columns, rows
+    return {"title": "Schemes, kernels and paths, in multiples of acstudy", "columns": columns, "rows": rows}
 
 
 def markdown(table):
-    columns, rows = table
-    lines = [columns, ["---"] + ["---:"] * (len(columns) - 1), *rows]
+    columns = table["columns"]
+    lines = [columns, ["---"] + ["---:"] * (len(columns) - 1), *table["rows"]]
     return "".join("| " + " | ".join(cells) + " |\n" for cells in lines)

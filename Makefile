@@ -82,7 +82,7 @@ clean:  ## removes what was built; results in OUT stay
 	@[ ! -e "$(BUILD)" ] || [ -e "$(BUILD)/CMakeCache.txt" ] || { echo "$(BUILD) is no build folder; not removed" >&2; exit 2; }
 	rm -rf "$(BUILD)"
 
-sources = find solver mms studies reports tests \( -name '*.hpp' -o -name '*.cpp' \)
+sources = find solver mms studies reports tests bench \( -name '*.hpp' -o -name '*.cpp' \)
 
 # steps of the targets above
 

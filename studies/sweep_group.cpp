@@ -3,6 +3,7 @@
 #include <atomic>
 #include <variant>
 
+#include "solver/far/far_sweeps.hpp"
 #include "studies/kernel_choice.hpp"
 #include "studies/scheme.hpp"
 #include "studies/stopwatch.hpp"
@@ -115,18 +116,35 @@ void SweepGroup::sweep_moving(Team& team) {
   const SweepScheme local = scheme(local_), nonlocal = scheme(nonlocal_);
   SweepRange whole{particles_.x.at(0), delta_, inside_, 0, count};
   std::atomic<std::int64_t> pairs{0};
-  const auto each_range = [&](const auto& sweep, auto run) {
-    team.each(count, 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      SweepRange range = whole;
-      range.begin = begin;
-      range.end = end;
-      pairs += run(range, sweep);
+  const auto each_range = [&](std::ptrdiff_t grain, auto run) {
+    team.each(count, grain, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
+      for (std::ptrdiff_t next; begin < end; begin = next) {
+        next = std::min(begin + grain, end);
+        SweepRange range = whole;
+        range.begin = begin;
+        range.end = next;
+        pairs += run(range);
+      }
     });
   };
   if (model_ == 1) {
-    each_range(UpwindSweep{kernel_->sweep, begin_of(particles_.c_hat), begin_of(particles_.b_prime),
-                           begin_of(particles_.c), begin_of(particles_.b), local, nonlocal},
-               sweeps().upwind);
+    const UpwindSweep sweep{kernel_->sweep,
+                            begin_of(particles_.c_hat),
+                            begin_of(particles_.b_prime),
+                            begin_of(particles_.c),
+                            begin_of(particles_.b),
+                            local,
+                            nonlocal};
+    const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
+    if (far::far_pays(kernel_->sweep.form, neighbors)) {
+      each_range(far::range_size(static_cast<std::ptrdiff_t>(neighbors)), [&](const SweepRange& range) {
+        thread_local far::Memory memory;
+        return far::far_sweeps().upwind(range, sweep, memory);
+      });
+    } else {
+      each_range(64, [&](const SweepRange& range) { return sweeps().upwind(range, sweep); });
+    }
   } else {
     const MidpointModes modes = particles_.modes.value_or(MidpointModes{});
     SymmetricSweep sweep{.kernel = kernel_->sweep,
@@ -147,7 +165,7 @@ void SweepGroup::sweep_moving(Team& team) {
       sweep.half_cosine[k] = k < sweep.modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
       sweep.half_sine[k] = k < sweep.modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
     }
-    each_range(sweep, sweeps().symmetric);
+    each_range(64, [&](const SweepRange& range) { return sweeps().symmetric(range, sweep); });
   }
   work_.pairs += pairs;
   ++work_.weight_builds;

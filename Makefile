@@ -21,7 +21,7 @@ gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 # Those whose errors are compared, with finer levels, and those that show how run times scale.
 bench_studies = $(wildcard studies/fig*.toml studies/bench/fine-*.toml) studies/bench/scaling-n.toml studies/bench/scaling-horizon.toml
 
-.PHONY: help studies test check mutants bench compare build format format-check clean compiled compiled-tests drawable
+.PHONY: help studies test check mutants bench compare deep build format format-check clean compiled compiled-tests drawable
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -65,6 +65,11 @@ compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and
 	@python=$$(scripts/find-python.sh) && \
 	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \
 	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$python" reports/report.py "$(OUT)"; fi
+
+deep: build  ## figures 1 and 3 to N = 20480, the path sqrt(h) to N = 40960 (some 10 minutes)
+	@$(acstudy) run studies/deep/*.toml --out "$(OUT)/deep" --jobs $(JOBS)
+	$(setup) report
+	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/deep"
 
 build:  ## builds acstudy
 	$(setup) build

@@ -21,11 +21,12 @@ gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 # Those whose errors are compared, with finer levels, and those that show how run times scale.
 bench_studies = $(wildcard studies/fig*.toml studies/bench/fine-*.toml) studies/bench/scaling-n.toml studies/bench/scaling-horizon.toml
 
-.PHONY: help studies test check mutants bench build format format-check clean compiled compiled-tests drawable
+.PHONY: help studies test check mutants bench compare build format format-check clean compiled compiled-tests drawable
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
-	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  THREADS=$(THREADS)  SETUP=off  PYTHON=...  CXX=..."
+	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  THREADS=$(THREADS)  COMPARE=--quick|--all"
+	@echo "             SETUP=off  PYTHON=...  CXX=..."
 
 # On a fresh machine the packages that draw are installed while the C++ compiles: half a minute less.
 # A verdict that departs (1) or a run that failed (3) is to be seen in the report too.
@@ -58,6 +59,12 @@ bench: build  ## error against run time: times every case alone, in turn, prints
 	@$(acstudy) bench studies/bench/scaling-threads.toml --threads $(THREADS) --out "$(OUT)/bench-threads" --fresh
 	$(setup) report
 	@python=$$(scripts/find-python.sh) && "$$python" reports/bench_tables.py "$(OUT)" && "$$python" reports/report.py "$(OUT)"
+
+compare: build  ## the same cases in NumPy, Octave and PySPH: errors have to be equal, run times are compared (some 10 minutes)
+	$(setup) report
+	@python=$$(scripts/find-python.sh) && \
+	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \
+	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$python" reports/report.py "$(OUT)"; fi
 
 build:  ## builds acstudy
 	$(setup) build

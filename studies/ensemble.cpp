@@ -25,7 +25,8 @@ namespace {
 double panel_reach(const Case& c) {
   std::vector<double> x = start_positions(c.start, static_cast<std::size_t>(c.N), c.scene->period());
   const double at_start = gaps(x, c.scene->period()).largest;
-  const auto at_end = Trajectories(*c.scene, x).at(c.scene->T());
+  Trajectories trajectories(*c.scene, x);
+  const auto at_end = trajectories.at(c.scene->T());
   const double largest = std::max(at_start, gaps({at_end.begin(), at_end.end()}, c.scene->period()).largest);
   return midpoint_reach(c.delta, largest);
 }

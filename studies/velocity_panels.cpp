@@ -9,13 +9,17 @@ namespace acstudy {
 
 namespace {
 
-constexpr int nodes = 32, most_terms = 24;
+constexpr int nodes = 48, most_terms = 32;
 
-/// Chebyshev coefficients a_0 .. a_31 of the polynomial through values at cos(pi (i + 1/2)/32).
+/// Chebyshev coefficients a_0 .. a_47 of the polynomial through values at cos(pi (i + 1/2)/48).
 std::vector<double> chebyshev_coefficients(const double* values) {
   std::vector<double> a(nodes, 0.0);
   for (int k = 0; k < nodes; ++k) {
-    for (int i = 0; i < nodes; ++i) a[k] += values[i] * std::cos(std::numbers::pi * k * (i + 0.5) / nodes);
+    for (int i = 0; i < nodes; ++i) {
+      // Whole turns are taken off while the angle is exact.
+      const int angle = k * (2 * i + 1) % (4 * nodes);
+      a[k] += values[i] * std::cos(std::numbers::pi * angle / (2 * nodes));
+    }
     a[k] *= (k == 0 ? 1.0 : 2.0) / nodes;
   }
   return a;
@@ -24,7 +28,7 @@ std::vector<double> chebyshev_coefficients(const double* values) {
 /// Number of leading coefficients without which more than round-off of `scale` would be missing.
 int terms_needed(const std::vector<double>& a, double scale) {
   int terms = nodes;
-  while (terms > 0 && std::abs(a[terms - 1]) <= 4e-16 * scale) --terms;
+  while (terms > 0 && std::abs(a[terms - 1]) <= 1e-15 * scale) --terms;
   return terms;
 }
 

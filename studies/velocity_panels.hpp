@@ -15,7 +15,7 @@ namespace acstudy {
 class VelocityPanels {
  public:
   /// @param reach  largest distance from the middle of a vector of particles to a midpoint with a neighbor
-  /// @return none where the fields are too rough for polynomials of degree below 24 on panels of that size
+  /// @return none where the fields are too rough for polynomials of degree below 32 on panels of that size
   static std::optional<VelocityPanels> find(const Scene& scene, double reach);
 
   /// The distance for which the panels are large enough.

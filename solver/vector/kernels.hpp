@@ -9,7 +9,7 @@
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
-/// Cells of particles; see Cell. Distances are in units of the horizon, the width is not.
+/// Cells of particles, in units of the horizon; see Cell.
 struct CellLanes {
   Lanes inner, outer;
   Lanes width;
@@ -22,17 +22,17 @@ enum class Piece { inside, outside, any };
 // What the sums ask of a kernel K. A constant factor that all cells of a particle share is put in last (Model I) or
 // cancels (Model II):
 //
-//   K::breakpoint                      end of the piece `inside`, or 1
-//   moment_scale(delta)                what first_moment has to be multiplied with
-//   first_moment<piece>(cell, delta)   proportional to the kernel's own; see solver/kernels.hpp
-//   mass<piece>(cell, delta)           likewise
+//   K::breakpoint               end of the piece `inside`, or 1
+//   K::moment_scale             what first_moment has to be multiplied with
+//   first_moment<piece>(cell)   proportional to the kernel's own; see solver/kernels.hpp
+//   mass<piece>(cell)           likewise
 
 /// eta(z) = 1/z.
 struct InverseLanes {
   static constexpr double breakpoint = 1.0;
-  static double moment_scale(double delta) { return 1.0 / delta; }
+  static constexpr double moment_scale = 1.0;
   template <Piece>
-  Lanes first_moment(const CellLanes& cell, double) const {
+  Lanes first_moment(const CellLanes& cell) const {
     return cell.width;
   }
 };
@@ -44,7 +44,7 @@ struct CubicSplineLanes {
   static constexpr double breakpoint = 0.5;
 
   template <Piece piece>
-  Lanes mass(const CellLanes& cell, double delta) const {
+  Lanes mass(const CellLanes& cell) const {
     const auto& [a, b, width, rest_a, rest_b] = cell;
     if constexpr (piece == Piece::outside) {
       const Lanes sum = rest_a + rest_b;
@@ -53,13 +53,13 @@ struct CubicSplineLanes {
       const Lanes sum = a + b, inside = width * (sum * (1.0 - sum) + a * b);
       if constexpr (piece == Piece::inside) return inside;
       const Lanes p = max(a - 0.5, Lanes{}), q = max(b - 0.5, Lanes{});
-      return inside + (4.0 / 3.0 * delta) * ((q - p) * (p * p + p * q + q * q));
+      return inside + (4.0 / 3.0) * (q - p) * (p * p + p * q + q * q);
     }
   }
 
-  static double moment_scale(double delta) { return 4.0 / (3.0 * delta); }
+  static constexpr double moment_scale = 4.0 / 3.0;
   template <Piece piece>
-  Lanes first_moment(const CellLanes& cell, double delta) const {
+  Lanes first_moment(const CellLanes& cell) const {
     const auto& [a, b, width, rest_a, rest_b] = cell;
     if constexpr (piece == Piece::outside) {
       const Lanes sum = rest_a + rest_b;
@@ -68,7 +68,7 @@ struct CubicSplineLanes {
       const Lanes sum = a + b, inside = width * (sum * sum * (8.0 - 9.0 * sum) - a * b * (8.0 - 18.0 * sum));
       if constexpr (piece == Piece::inside) return inside;
       const Lanes p = max(a - 0.5, Lanes{}), q = max(b - 0.5, Lanes{});
-      return inside + delta * ((q - p) * (8.0 * (p * p + p * q + q * q) + 12.0 * (p + q) * (p * p + q * q)));
+      return inside + (q - p) * (8.0 * (p * p + p * q + q * q) + 12.0 * (p + q) * (p * p + q * q));
     }
   }
 };
@@ -84,21 +84,21 @@ class ScalarLanes {
   ScalarLanes(const void* kernel, CellFunction cell_moment, CellFunction cell_mass)
       : kernel_(kernel), first_moment_(cell_moment), mass_(cell_mass) {}
 
-  static double moment_scale(double) { return 1.0; }
+  static constexpr double moment_scale = 1.0;
   template <Piece>
-  Lanes first_moment(const CellLanes& cells, double delta) const {
-    return each(first_moment_, cells, delta);
+  Lanes first_moment(const CellLanes& cells) const {
+    return each(first_moment_, cells);
   }
   template <Piece>
-  Lanes mass(const CellLanes& cells, double delta) const {
-    return each(mass_, cells, delta);
+  Lanes mass(const CellLanes& cells) const {
+    return each(mass_, cells);
   }
 
  private:
-  Lanes each(CellFunction function, const CellLanes& c, double delta) const {
+  Lanes each(CellFunction function, const CellLanes& c) const {
     Lanes result;
     for (int i = 0; i < lane_count; ++i) {
-      const Cell cell{c.inner[i], c.outer[i], c.width[i] / delta, c.rest_inner[i], c.rest_outer[i]};
+      const Cell cell{c.inner[i], c.outer[i], c.width[i], c.rest_inner[i], c.rest_outer[i]};
       result[i] = cell.width > 0.0 ? function(kernel_, cell) : 0.0;
     }
     return result;

@@ -47,7 +47,7 @@ class Symmetric {
                                 ACSTUDY_ALWAYS_INLINE { s > 0 ? void(to -= value) : void(to += value); };
     const auto visit = [&]<class Kind>(Kind, const Neighbor& neighbor) ACSTUDY_ALWAYS_INLINE {
       const std::ptrdiff_t i = j - s * neighbor.k;
-      Lanes m = kernel_.template mass<Kind::piece>(neighbor.cell, range_.delta);
+      Lanes m = kernel_.template mass<Kind::piece>(neighbor.cell);
       if constexpr (Kind::masked) {
         m = neighbor.active ? m : zero;
         pairs_ += count(neighbor.active & counted);

@@ -46,7 +46,7 @@ class Upwind {
     const int counted_lanes = count(counted);
     const auto visit = [&]<class Kind>(Kind, const Neighbor& neighbor) ACSTUDY_ALWAYS_INLINE {
       const std::ptrdiff_t i = j - s * neighbor.k;
-      Lanes W = kernel_.template first_moment<Kind::piece>(neighbor.cell, range_.delta) / neighbor.distance;
+      Lanes W = kernel_.template first_moment<Kind::piece>(neighbor.cell) / neighbor.distance;
       if constexpr (Kind::masked) {
         W = neighbor.active ? W : Lanes{};
         pairs_ += count(neighbor.active & counted);
@@ -61,7 +61,7 @@ class Upwind {
       }
     };
     walk<s, K>(range_.x + j, {range_.delta, range_.inside}, active, visit);
-    const double scale = K::moment_scale(range_.delta);
+    const double scale = K::moment_scale;
     return {sum.W * scale, sum.flux_local * scale, sum.b * scale, sum.flux_nonlocal * scale};
   }
 

@@ -44,7 +44,7 @@ ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask a
   std::ptrdiff_t k = 1;
   Lanes before = x_0, here = load(x - s);
   Lanes distance = s > 0 ? x_0 - here : here - x_0;
-  Lanes z_before = {}, rest_before = spread(1.0), distance_before = {};
+  Lanes z_before = {}, rest_before = spread(1.0);
 
   const auto next_neighbor = [&]() ACSTUDY_ALWAYS_INLINE { return load(x - s * (k + 1)); };
   const auto distance_of = [&](Lanes neighbor)
@@ -53,7 +53,6 @@ ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask a
   const auto step_to = [&](Lanes neighbor, Lanes its_distance, const CellLanes& cell) ACSTUDY_ALWAYS_INLINE {
     before = here;
     here = neighbor;
-    distance_before = distance;
     distance = its_distance;
     z_before = cell.outer;
     rest_before = cell.rest_outer;
@@ -65,7 +64,8 @@ ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask a
       if (until > 0.0 && all_at_most(spread(until), z_before)) return;
       const Lanes next = next_neighbor(), next_distance = distance_of(next);
       if (!all_at_most(next_distance, limit)) return;
-      const CellLanes cell{z_before, distance * per_delta, gap(), rest_before, (delta - distance) * per_delta};
+      const CellLanes cell{z_before, distance * per_delta, gap() * per_delta, rest_before,
+                           (delta - distance) * per_delta};
       visit(VisitKind<piece, false>{}, Neighbor{k, here, distance, cell, active});
       step_to(next, next_distance, cell);
     }
@@ -92,8 +92,7 @@ ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask a
       cell.outer = goes_on ? min(distance * per_delta, spread(1.0)) : spread(1.0);
       cell.rest_outer = goes_on ? max((delta - distance) * per_delta, Lanes{}) : Lanes{};
       // The last cell ends at the horizon, beyond which a neighbor that ties with it may stand.
-      const Lanes rest = max(delta - distance_before, Lanes{});
-      cell.width = goes_on ? min(gap(), rest) : rest;
+      cell.width = goes_on ? min(gap() * per_delta, rest_before) : rest_before;
       visit(VisitKind<piece, true>{}, Neighbor{k, here, distance, cell, active});
       outermost = active ? distance : outermost;
       active = goes_on;

@@ -2,6 +2,7 @@
 
 BUILD  ?= build
 OUT    ?= reports/out
+THREADS ?= 1,2
 JOBS   ?= $(shell nproc 2>/dev/null || sysctl -n hw.ncpu 2>/dev/null || echo 2)
 REPORT  = $(OUT)/index.html
 # SETUP=off installs no system package, PYTHON draws the report, CXX builds: all three reach the scripts by the environment
@@ -17,12 +18,15 @@ compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
 # What the finest errors are made of takes longer than all gates together.
 gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 
+# Those whose errors are compared, with finer levels, and those that show how run times scale.
+bench_studies = $(wildcard studies/fig*.toml studies/bench/fine-*.toml) studies/bench/scaling-n.toml studies/bench/scaling-horizon.toml
+
 .PHONY: help studies test check mutants bench compare build format format-check clean compiled compiled-tests drawable
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
-	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  SETUP=off  PYTHON=...  CXX=..."
-	@echo "             COMPARE=--quick|--all"
+	@echo "  variables: BUILD=$(BUILD)  OUT=$(OUT)  JOBS=$(JOBS)  THREADS=$(THREADS)  COMPARE=--quick|--all"
+	@echo "             SETUP=off  PYTHON=...  CXX=..."
 
 # On a fresh machine the packages that draw are installed while the C++ compiles: half a minute less.
 # A verdict that departs (1) or a run that failed (3) is to be seen in the report too.
@@ -50,10 +54,11 @@ mutants:  ## tests the tests: each mistake planted in a copy of the sources has 
 	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$(scripts/find-python.sh)" reports/report.py "$(OUT)" || \
 		[ $$status -ne 0 ] || status=4; fi; exit $$status
 
-bench: build  ## error against run time with one case at a time, so that none disturbs another
-	@$(acstudy) run studies/fig*.toml --out "$(OUT)/bench" --jobs 1 --repeats 5 --fresh
+bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some minutes)
+	@$(acstudy) bench $(bench_studies) --out "$(OUT)/bench" --fresh
+	@$(acstudy) bench studies/bench/scaling-threads.toml --threads $(THREADS) --out "$(OUT)/bench-threads" --fresh
 	$(setup) report
-	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/bench"
+	@python=$$(scripts/find-python.sh) && "$$python" reports/bench_tables.py "$(OUT)" && "$$python" reports/report.py "$(OUT)"
 
 compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and second by second (some 10 minutes)
 	$(setup) report
@@ -77,7 +82,7 @@ clean:  ## removes what was built; results in OUT stay
 	@[ ! -e "$(BUILD)" ] || [ -e "$(BUILD)/CMakeCache.txt" ] || { echo "$(BUILD) is no build folder; not removed" >&2; exit 2; }
 	rm -rf "$(BUILD)"
 
-sources = find solver mms studies reports tests \( -name '*.hpp' -o -name '*.cpp' \)
+sources = find solver mms studies reports tests bench \( -name '*.hpp' -o -name '*.cpp' \)
 
 # steps of the targets above
 

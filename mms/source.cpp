@@ -199,30 +199,52 @@ class AdaptiveSource : public NonlocalSource {
   SourceRule rule_;
 };
 
-/// The largest gap between two sources at sample points of the scene, relative to the largest sum of the terms that
-/// they add up; the sources themselves may cancel to nothing.
-double disagreement(const Scene& scene, Source& coarse, Source& fine) {
-  constexpr std::size_t count = 61;
-  Values x(count), a(count), b(count), u(count), u_x(count), u_t(count);
-  for (std::size_t i = 0; i < count; ++i) x[i] = scene.period() * static_cast<double>(i) / count;
-  coarse.place(x);
-  fine.place(x);
-  Velocities velocity;
-  velocity.evaluate(scene, x);
-  double gap = 0.0, scale = 0.0;
-  for (const double t : {0.0, 0.5 * scene.T(), scene.T()}) {
-    coarse.evaluate(t, a);
-    fine.evaluate(t, b);
-    scene.u(x, t, u, u_x, u_t);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double difference = std::abs(a[i] - b[i]);
-      gap = std::max(gap, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
-      const double flux = std::abs(velocity.c_hat[i] * u_x[i]) + std::abs(velocity.c_hat_prime[i] * u[i]);
-      scale = std::max({scale, std::abs(b[i]), std::abs(u_t[i]) + flux});
+/// A source at sample points of the scene, to compare others with.
+class SourceSamples {
+ public:
+  SourceSamples(const Scene& scene, Source& source) : x_(count) {
+    for (std::size_t i = 0; i < count; ++i) x_[i] = scene.period() * static_cast<double>(i) / count;
+    source.place(x_);
+    Velocities velocity;
+    velocity.evaluate(scene, x_);
+    Values u(count), u_x(count), u_t(count);
+    for (const double fraction : {0.0, 0.5, 1.0}) {
+      Sample& sample = samples_.emplace_back(Sample{fraction * scene.T(), Values(count)});
+      source.evaluate(sample.t, sample.f);
+      scene.u(x_, sample.t, u, u_x, u_t);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double flux = std::abs(velocity.c_hat[i] * u_x[i]) + std::abs(velocity.c_hat_prime[i] * u[i]);
+        scale_ = std::max({scale_, std::abs(sample.f[i]), std::abs(u_t[i]) + flux});
+      }
     }
   }
-  return gap == 0.0 ? 0.0 : gap / scale;
-}
+
+  /// The largest gap to another source, relative to the largest sum of the terms that they add up; the sources
+  /// themselves may cancel to nothing.
+  double disagreement(Source& other) const {
+    Values f(count);
+    other.place(x_);
+    double gap = 0.0;
+    for (const Sample& sample : samples_) {
+      other.evaluate(sample.t, f);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double difference = std::abs(f[i] - sample.f[i]);
+        gap = std::max(gap, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
+      }
+    }
+    return gap == 0.0 ? 0.0 : gap / scale_;
+  }
+
+ private:
+  static constexpr std::size_t count = 61;
+  struct Sample {
+    double t;
+    Values f;
+  };
+  Values x_;
+  std::vector<Sample> samples_;
+  double scale_ = 0.0;
+};
 
 }  // namespace
 
@@ -241,12 +263,12 @@ std::size_t sufficient_points(const Scene& scene, const NonlocalModel& model) {
   // what round-off in its argument leaves, which two fine rules show.
   constexpr double promised = 3e-14, acceptable = 1e-10;
   constexpr std::size_t most = 40;
-  const auto reference = nonlocal_source(scene, model, most + 8);
-  const double round_off = disagreement(scene, *nonlocal_source(scene, model, most), *reference);
+  const SourceSamples reference(scene, *nonlocal_source(scene, model, most + 8));
+  const double round_off = reference.disagreement(*nonlocal_source(scene, model, most));
   if (round_off <= acceptable) {
     const double tolerance = std::max(promised, 2.0 * round_off);
     for (std::size_t points = 2; points <= most; ++points) {
-      if (disagreement(scene, *nonlocal_source(scene, model, points), *reference) <= tolerance) return points;
+      if (reference.disagreement(*nonlocal_source(scene, model, points)) <= tolerance) return points;
     }
   }
   throw std::domain_error(

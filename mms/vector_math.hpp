@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "solver/vector/clones.hpp"
+
 #if defined(__GLIBC__) && defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 extern "C" {
 __attribute__((simd("notinbranch"))) double sin(double) noexcept;
@@ -21,10 +23,6 @@ __attribute__((simd("notinbranch"))) double log(double) noexcept;
 __attribute__((simd("notinbranch"))) double atan2(double, double) noexcept;
 #endif
 }
-/// Compiles a function again for wider vectors, chosen when the program is loaded.
-#define ACSTUDY_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define ACSTUDY_VECTOR_CLONES
 #endif
 
 namespace acstudy {

@@ -8,6 +8,7 @@ from multiprocessing.connection import wait
 import os
 import signal
 
+import bench_figures
 import control_figures
 import coverage_figures
 import digit_figures
@@ -41,14 +42,15 @@ def of_study(study, styles):
     return stepping_figures.drawings(study) if study.steps_in_several_ways else figures.drawings(study, styles)
 
 
-def of_all(studies, styles):
-    """The rendered drawings of each study, and at the end those of all together: an iterator of lists.
+def of_all(studies, benches, styles):
+    """The rendered drawings of each study, and at the end those of all together and of the benches: an iterator of lists.
 
     DrawingKilled if a process of the drawing was killed. Ended early, it leaves no process.
     """
-    tasks = [*((of_study, study, styles) for study in studies), (_of_cost, studies, styles)]
+    tasks = [*((of_study, study, styles) for study in studies), (_of_cost, studies, styles),
+             (bench_figures.drawings, benches, styles)]
     usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    processes = min(len(studies), usable)
+    processes = min(len(studies) + bool(benches), usable)
     if processes < 2:
         yield from map(_rendered, tasks)
         return

@@ -34,9 +34,14 @@ class Style:
 
 def scheme_styles(studies):
     """A style for every scheme of the studies, in order of appearance: a scheme looks the same in every figure."""
+    return styles_of(series.scheme for study in studies if study.kind == CONVERGENCE for series in study.series
+                     if not series.stepping)
+
+
+def styles_of(schemes):
+    """{scheme: style}, in order of appearance."""
     styles, families = {}, []
-    for scheme in (series.scheme for study in studies if study.kind == CONVERGENCE for series in study.series
-                   if not series.stepping):
+    for scheme in schemes:
         if scheme in styles:
             continue
         family = (scheme.model, scheme.kernel, scheme.alpha, scheme.mu)
@@ -77,7 +82,7 @@ def error_figure(study, styles):
         legends = [[_legend_text(series, labels[series.scheme], room) for series in group]
                    for group in panels.values()]
         deepest = max(sum(LINE * (text.count("\n") + 1.6) for text in texts) for texts in legends)
-        figure, frames = _frames(len(panels), below=deepest if len(panels) > 1 else 0, above=0.54)
+        figure, frames = panel_frames(len(panels), below=deepest if len(panels) > 1 else 0, above=0.54)
         bounds, references = axes.error_bounds(list(zip(curves, map(_orders, panels.values()))), frames[0].inches)
         for frame, (path, group), drawn, lines, texts in zip(frames, panels.items(), curves, references, legends):
             _error_panel(frame, path, group, drawn, bounds, lines)
@@ -182,7 +187,7 @@ def cost_figure(studies, styles):
         legend = dict(sorted(entries, key=lambda entry: entry[0]))
         columns = 2 if max(map(len, legend)) > 32 else 3
         foot = math.ceil(len(legend) / columns) * LINE * 1.5 + 0.15
-        figure, frames = _frames(len(panels), below=0, above=0.4, foot=foot)
+        figure, frames = panel_frames(len(panels), below=0, above=0.4, foot=foot)
         timed = [case for _, series in chosen for case in zip(series.cases.seconds, series.cases.error_linf)
                  if all(math.isfinite(value) and value > 0 for value in case)]
         seconds, errors = np.array(timed).T if timed else (np.array([]), np.array([]))
@@ -250,7 +255,7 @@ class Frame:
     last: bool      # nothing below it
 
 
-def _frames(count, above, below, foot=0.0):
+def panel_frames(count, above, below, foot=0.0):
     """A figure with `count` panels, at most three a row; inches `above` and `below` every row and at the `foot`."""
     columns = count if count <= 3 else 2 if count == 4 else 3
     rows = math.ceil(count / columns)

@@ -3,6 +3,7 @@
 from html import escape
 import math
 
+import bench_page
 import claims
 import comparison
 import extremes_table
@@ -24,16 +25,19 @@ observed order is the order in the limit: that of a power law with a correction,
 the window, with its 95 % interval; with three levels it is that of a power law alone. Beside it stands the slope of a
 power law alone, which a correction bends. The verdict judges both against the order that theory gives."""
 
+TIMED = f'<p><a href="{bench_page.FILE}">Measured so that they can be compared</a>: each case alone, repeatedly, in turn.</p>\n'
+UNTIMED = "<p><code>make bench</code> measures them so that they can be compared: alone, repeatedly, in turn.</p>\n"
+
 CASE_COLUMNS = ("<var>N</var>", "<var>h</var>", "<var>δ</var>", "Δ<var>t</var>", "steps", "max-norm error",
                 "pairwise order", "run time (s)", "fastest – slowest", "repeats", "pairs", "weight builds",
                 "quadrature points")
 
 
-def html(studies, drawings, cost=None, seeded=None, compared=None):
+def html(studies, drawings, cost=None, seeded=None, compared=None, timed=False):
     """The page as text.
 
     `drawings`: {name of a study: its drawings}; `cost`: the drawing of the cost figure; `seeded`: mutants.read();
-    `compared`: comparison.read().
+    `compared`: comparison.read(); `timed`: there is a page of benches.
     """
     body = [_summary(studies)]
     for study in studies:
@@ -41,10 +45,10 @@ def html(studies, drawings, cost=None, seeded=None, compared=None):
         body.append(part(study, drawings.get(study.name, [])))
     if cost:
         body.append('<section aria-labelledby="run-time">\n<h2 id="run-time">Error against run time</h2>\n'
-                    f"{markup.figure(cost)}</section>\n")
+                    f"{markup.figure(cost)}{TIMED if timed else UNTIMED}</section>\n")
     body.append(comparison.section(compared))
     body.append(mutants.section(seeded))
-    links = [("claims.html", "claim by claim"), *((f"#{study.name}", study.name) for study in studies)]
+    links = [("claims.html", "claim by claim"), *([(bench_page.FILE, "error against run time")] if timed else []), *((f"#{study.name}", study.name) for study in studies)]
     links += [("#run-time", "run time")] if cost else []
     links.append(("#comparison", "other programs"))
     links.append(("#seeded-mistakes", "seeded mistakes"))

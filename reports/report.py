@@ -42,7 +42,9 @@ def main(arguments=None):
 
 
 def report(folder, files):
-    """Draws every figure of the result files and the pages into `folder`; the path of the first page."""
+    """Draws every figure of the result files and benches and the pages into `folder`; the path of the first page."""
+    import bench_page
+    import bench_results
     import claims
     import comparison
     import drawing
@@ -54,17 +56,25 @@ def report(folder, files):
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
     seeded, compared = mutants.read(folder), comparison.read(folder)
+    benches = bench_results.read_all(folder)
     styles = figures.scheme_styles(studies)
     drawings = {}
-    with closing(drawing.of_all(studies, styles)) as drawn_in_turn:
-        for study, drawn in zip((*studies, None), drawn_in_turn):
+    names = (*(study.name for study in studies), "cost", "bench")
+    with closing(drawing.of_all(studies, benches, styles)) as drawn_in_turn:
+        for name, drawn in zip(names, drawn_in_turn):
             for one in drawn:
                 for kind, content in one.files.items():
                     _write(folder / f"{one.stem}.{kind}", content)
-            drawings[study.name if study else "cost"] = drawn
+            drawings[name] = drawn
     cost = next(iter(drawings.pop("cost")), None)
+    of_benches = drawings.pop("bench")
+    if benches:
+        links = [("index.html", "all studies")] if studies else []
+        _write(folder / bench_page.FILE, bench_page.html(benches, of_benches, links).encode("utf-8"))
+    if not studies:
+        return folder / bench_page.FILE
     index = folder / "index.html"
-    _write(index, page.html(studies, drawings, cost, seeded, compared).encode("utf-8"))
+    _write(index, page.html(studies, drawings, cost, seeded, compared, bool(benches)).encode("utf-8"))
     _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
     return index
 
@@ -91,7 +101,7 @@ def _inputs(options):
         raise UsageError(f"{folder}: no such folder; run a study first or name the folder of the result files")
     named = [Path(name) for name in options.studies]
     files = named or sorted(file for file in folder.glob("*.h5") if not file.name.startswith("."))
-    if not files:
+    if not files and not list(folder.glob("bench*/bench.json")):
         raise UsageError(f"{folder}: no result file (*.h5) in it; run a study first")
     for file in files:
         if not file.is_file():
@@ -100,11 +110,12 @@ def _inputs(options):
 
 
 def _refuse_clashes(studies):
-    """Two studies of one name would overwrite each other's figure, and one named cost the cost figure."""
+    """Two studies of one name would overwrite each other's figure, and cost and bench are names of other figures."""
     seen = {}
     for study in studies:
-        if study.name == "cost":
-            raise UsageError(f'{study.file}: study = "cost"; the cost figure has this name; rename the study')
+        if study.name in ("cost", "bench"):
+            raise UsageError(f'{study.file}: study = "{study.name}"; the {study.name} figure has this name; rename the '
+                             "study")
         if study.name in seen:
             raise UsageError(f'{study.file}: study = "{study.name}" is also in {seen[study.name]}; name one of them')
         seen[study.name] = study.file

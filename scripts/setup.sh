@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes sure that what acstudy needs is installed.
 #
-#   scripts/setup.sh [build|report|test|lint]...        (default: build report)
+#   scripts/setup.sh [build|report|test|bench|lint]...        (default: build report)
 #
 # Debian, Ubuntu: installs what is missing with apt-get, having said so; SETUP=off never installs.
 # Elsewhere: names what is missing, with its package for Homebrew, conda-forge and Fedora.
@@ -29,6 +29,7 @@ build  nlohmann-json  nlohmann/json.hpp                             nlohmann-jso
 report matplotlib     @python                                       python3-matplotlib  python-matplotlib matplotlib-base  python3-matplotlib
 report numpy          @python                                       python3-numpy       numpy             numpy            python3-numpy
 report h5py           @python                                       python3-h5py        pip:h5py          h5py             python3-h5py
+bench  benchmark      benchmark/benchmark.h                         libbenchmark-dev    google-benchmark  benchmark        google-benchmark-devel
 test   Catch2         catch2/catch_test_macros.hpp,catch2/catch.hpp catch2              catch2            catch2           catch-devel
 lint   clang-format   clang-format                                  clang-format        clang-format      clang-format     clang-tools-extra
 END

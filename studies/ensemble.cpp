@@ -8,6 +8,7 @@
 
 #include "mms/source_series.hpp"
 #include "solver/integrators.hpp"
+#include "solver/vector/clones.hpp"
 #include "studies/operator.hpp"
 #include "studies/outcome.hpp"
 #include "studies/scheme.hpp"
@@ -18,10 +19,25 @@
 
 namespace acstudy {
 
+namespace {
+
+/// How far midpoints are from the middle of a vector of particles, at the start or at T.
+double panel_reach(const Case& c) {
+  std::vector<double> x = start_positions(c.start, static_cast<std::size_t>(c.N), c.scene->period());
+  const double at_start = gaps(x, c.scene->period()).largest;
+  Trajectories trajectories(*c.scene, x);
+  const auto at_end = trajectories.at(c.scene->T());
+  const double largest = std::max(at_start, gaps({at_end.begin(), at_end.end()}, c.scene->period()).largest);
+  return midpoint_reach(c.delta, largest);
+}
+
+}  // namespace
+
 bool runs_in_vector_form(const Case& c) {
   if (c.readable) return false;
   if (c.integrator->implicit() || !c.scheme.control.empty() || c.step.bound == StepRule::Bound::rows) return false;
-  return c.scheme.model == 1 || c.scene->standing() || midpoint_modes(*c.scene);
+  return c.scheme.model == 1 || c.scene->standing() || midpoint_modes(*c.scene) ||
+         VelocityPanels::find(*c.scene, panel_reach(c));
 }
 
 std::string ensemble_key(const Case& c) {
@@ -33,7 +49,23 @@ std::string ensemble_key(const Case& c) {
                      c.start.smallest_gap);
 }
 
+std::string sweep_key(const Case& c) {
+  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model, c.scheme.kernel.label(), c.delta, c.mu);
+}
+
 namespace {
+
+/// u <- (1 - weight) u^n + weight (u + dt (rate + f))
+ACSTUDY_VECTOR_CLONES void apply_stage(double weight, double dt, const double* u_n, const double* rate, const double* f,
+                                       double* u, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  if (weight == 1.0) {
+    for (std::ptrdiff_t j = begin; j < end; ++j) u[j] += dt * (rate[j] + f[j]);
+  } else {
+    for (std::ptrdiff_t j = begin; j < end; ++j) {
+      u[j] = (1.0 - weight) * u_n[j] + weight * (u[j] + dt * (rate[j] + f[j]));
+    }
+  }
+}
 
 /// A manufactured source at all particles, by its series if it has one.
 class ParticleSource {
@@ -228,19 +260,10 @@ class Ensemble {
     }
   }
 
-  /// u <- (1 - weight) u^n + weight (u + dt (rate + f))
   void apply(const Stage& stage, double dt, Member& m) {
-    double* const u = m.values.u.values().data();
-    const double *const rate = m.values.rate.data(), *const f = m.source->f().data(), *const u_n = m.u_n.data();
-    const double weight = stage.weight;
     team_.each(std::ssize(m.values.u), 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      if (weight == 1.0) {
-        for (std::ptrdiff_t j = begin; j < end; ++j) u[j] += dt * (rate[j] + f[j]);
-      } else {
-        for (std::ptrdiff_t j = begin; j < end; ++j) {
-          u[j] = (1.0 - weight) * u_n[j] + weight * (u[j] + dt * (rate[j] + f[j]));
-        }
-      }
+      apply_stage(stage.weight, dt, m.u_n.data(), m.values.rate.data(), m.source->f().data(),
+                  m.values.u.values().data(), begin, end);
     });
   }
 

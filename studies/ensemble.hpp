@@ -20,6 +20,9 @@ bool runs_in_vector_form(const Case& c);
 
 /// Cases with equal keys can be advanced together: the same particles at the same times.
 std::string ensemble_key(const Case& c);
+/// Cases of an ensemble with equal keys have one model, kernel and horizon; two of them that differ by their divergence
+/// share their sweeps over pairs.
+std::string sweep_key(const Case& c);
 
 /// Runs cases of one key from start to error, once.
 ///

@@ -48,6 +48,26 @@ hid_t native() {
   return H5T_NATIVE_INT64;
 }
 
+/// A file that HDF5 builds in memory, because a disk that is full leaves the library's own file driver in a state in
+/// which it can only crash.
+inline Handle create_file_in_memory(const std::string& name) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file access properties");
+  check(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "choose the memory driver");
+  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create a file in memory"};
+}
+
+/// A file in memory as bytes.
+inline std::vector<char> image(hid_t file) {
+  check(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush the file in memory");
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  if (size < 0) throw StoreError("HDF5 could not give the file in memory");
+  std::vector<char> bytes(static_cast<std::size_t>(size));
+  if (H5Fget_file_image(file, bytes.data(), bytes.size()) != size) {
+    throw StoreError("HDF5 could not give the file in memory");
+  }
+  return bytes;
+}
+
 inline Handle create_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group " + name};
 }

@@ -1,5 +1,5 @@
 /// @file
-/// The command line: acstudy run | check | fit | explain | list.
+/// The command line: acstudy run | check | fit | bench | explain | list.
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -16,10 +16,12 @@
 #include <thread>
 
 #include "build_info.hpp"
+#include "studies/bench_command.hpp"
 #include "studies/check.hpp"
 #include "studies/explain.hpp"
 #include "studies/fit.hpp"
 #include "studies/gate.hpp"
+#include "studies/list.hpp"
 #include "studies/runner.hpp"
 #include "studies/study_file.hpp"
 
@@ -210,39 +212,23 @@ int check(const std::vector<std::string>& files, const std::optional<std::string
   return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.passes; }) ? done : departs;
 }
 
-int list(const std::string& what) {
-  const auto heading = [&](const char* title) {
-    if (what.empty()) fmt::print("{}:\n", title);
-  };
-  const char* indent = what.empty() ? "  " : "";
-  if (what.empty() || what == "schemes") {
-    heading("schemes");
-    fmt::print(
-        "{0}model = 1, divergence = \"local\"     Model I, scheme 1 (2.9); (2.4) where particles stand still\n"
-        "{0}model = 1, divergence = \"nonlocal\"  Model I, scheme 2 (2.11)\n"
-        "{0}model = 2, divergence = \"local\"     Model II, scheme 1 (3.8); (3.6) where particles stand still\n"
-        "{0}model = 2, divergence = \"nonlocal\"  Model II, scheme 2 (3.10)\n",
-        indent);
+int bench(const std::vector<std::string>& files, const BenchRequest& request) {
+  const std::vector<Study> studies = read_studies(files);
+  plan_bench(studies, request.options.threads);  // refuses what it cannot time before anything is written
+  prepare_folder(request.out);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  const BenchResult result = bench_studies(studies, request, stop);
+  fmt::print("{} cases, {} timed runs in {:.1f} s; samples in {}\n", result.cases, result.outcome.runs, result.seconds,
+             request.out.string());
+  for (const std::string& what : result.outcome.departs) say("two runs of one case differ: " + what);
+  for (const std::string& what : result.outcome.failed) say("not timed, it has no solution: " + what);
+  if (stop) {
+    say("interrupted; finished runs are stored, and the same command goes on from them");
+    return interrupted;
   }
-  if (what.empty() || what == "kernels") {
-    heading("kernels");
-    for (const NamedKernel& kernel : named_kernels) fmt::print("{}{:<35} {}\n", indent, kernel.written, kernel.meaning);
-  }
-  if (what.empty() || what == "integrators") {
-    heading("integrators");
-    for (const Integrator& integrator : integrators) {
-      fmt::print("{}{:<35} order {}, {} stage(s){}\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order,
-                 integrator.stage_count(), integrator.implicit() ? ", implicit" : "");
-    }
-  }
-  if (what.empty() || what == "scenes") {
-    heading("scenes");
-    for (const SceneText& scene : named_scenes()) {
-      fmt::print("{}{:<35} period {}, T = {}, c = {}, b = {}, u = {}\n", indent, fmt::format("\"{}\"", scene.name),
-                 scene.period, scene.T, scene.c, scene.b.value_or("0"), scene.u);
-    }
-  }
-  return done;
+  return !result.outcome.departs.empty() ? departs : !result.outcome.failed.empty() ? numerical_failure : done;
 }
 
 }  // namespace
@@ -302,6 +288,36 @@ int main(int argc, char** argv) {
   fit_command->add_option("--order", request.order, "theory's order; 0: the error must settle")->type_name("P");
   fit_command->add_flag("--json", json, "print one JSON object");
 
+  BenchRequest bench_request;
+  std::string bench_out = bench_request.out.string();
+  CLI::App* const bench_command = app.add_subcommand(
+      "bench",
+      "Time the cases of convergence studies, each alone, in turn with all others; exit 1 if two runs of one "
+      "case differ in error or work");
+  bench_command->add_option("STUDY.toml", files, "study files")->required();
+  bench_command->add_option("--out", bench_out, "folder for DIR/bench.h5 and DIR/bench.json")
+      ->type_name("DIR")
+      ->capture_default_str();
+  bench_command->add_option("--runs", bench_request.options.runs, "least number of timed runs of a case")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{1}, most_runs))
+      ->capture_default_str();
+  bench_command
+      ->add_option("--least-seconds", bench_request.options.least_seconds,
+                   fmt::format("least time of the timed runs of a case in all; {} runs do", most_runs))
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  bench_command
+      ->add_option("--threads", bench_request.options.threads,
+                   "threads that share the work of a case; several numbers, as in 1,2, time each case with each")
+      ->type_name("N,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  bench_command->add_flag("--fresh", bench_request.fresh, "drop the samples of an earlier bench in DIR");
+
   CLI::App* const explain_command =
       app.add_subcommand("explain", "Print what a study computes and what it leaves out; computes nothing");
   explain_command->add_option("STUDY.toml", files, "study files")->required();
@@ -317,7 +333,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto used = app.get_subcommands();
     if (used.empty() && argc > 1) {
-      say(fmt::format("unknown command \"{}\"; write run, check, fit, explain or list; see acstudy --help", argv[1]));
+      say(fmt::format("unknown command \"{}\"; write run, check, fit, bench, explain or list; see acstudy --help",
+                      argv[1]));
       return bad_input;
     }
     say(fmt::format("{}; see acstudy {}--help", error.what(), used.empty() ? "" : used.front()->get_name() + " "));
@@ -326,19 +343,25 @@ int main(int argc, char** argv) {
 
   try {
     int status = done;
+    std::string command;
+    for (int i = 0; i < argc; ++i) command += (i > 0 ? " " : "") + std::string(argv[i]);
     if (*run_command) {
       options.out = out;
-      for (int i = 0; i < argc; ++i) options.command += (i > 0 ? " " : "") + std::string(argv[i]);
+      options.command = command;
       options.readable = form == "readable";
       status = run(files, options);
     } else if (*check_command) {
       status = check(files, junit, github);
+    } else if (*bench_command) {
+      bench_request.out = bench_out;
+      bench_request.command = command;
+      status = bench(files, bench_request);
     } else if (*fit_command) {
       const Fit fit = fit_table(request);
       fmt::print("{}", json ? as_json(fit) : as_text(fit));
       status = fit.passes() ? done : departs;
     } else if (*list_command) {
-      status = list(what);
+      print_list(what);
     } else {
       for (const Study& study : read_studies(files)) fmt::print("{}", explain(study));
     }

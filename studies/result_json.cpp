@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "studies/json_form.hpp"
 #include "studies/study_file.hpp"
 
 namespace acstudy {
@@ -19,8 +20,8 @@ namespace acstudy {
 namespace {
 
 using json = nlohmann::ordered_json;
-
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+using json_form::number;
+using json_form::pretty;
 
 json observed_json(const Judgement& judgement) {
   json out;
@@ -161,27 +162,6 @@ json finding_json(const Finding& finding) {
     out["points"].push_back(one);
   }
   return out;
-}
-
-/// A value as JSON; bytes that are no UTF-8, as a file name may have, are replaced.
-std::string as_json_text(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
-
-/// JSON text with every real number at 17 significant digits; the library writes the fewest that read back the same.
-std::string pretty(const json& value, int depth = 0) {
-  const std::string inner(static_cast<std::size_t>(depth) * 2 + 2, ' '),
-      outer(static_cast<std::size_t>(depth) * 2, ' ');
-  const bool leaves = std::none_of(value.begin(), value.end(), [](const json& item) { return item.is_structured(); });
-  const std::string separator = leaves ? ", " : ",\n" + inner, open = leaves ? " " : "\n" + inner,
-                    close = leaves ? " " : "\n" + outer;
-  if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
-  if (!value.is_structured() || value.empty()) return as_json_text(value);
-  std::string text;
-  for (const auto& [key, item] : value.items()) {
-    text += text.empty() ? "" : separator;
-    if (value.is_object()) text += as_json_text(key) + ": ";
-    text += pretty(item, depth + 1);
-  }
-  return value.is_object() ? "{" + open + text + close + "}" : "[" + open + text + close + "]";
 }
 
 double real(const json& value) {

@@ -35,37 +35,28 @@ struct Batch {
   double work = 0.0;
 };
 
-/// True if a batch has the case with the other divergence, with which it shares its sweeps.
-bool has_twin(const Case& c, const Batch& batch, const std::vector<Job>& jobs) {
-  return std::any_of(batch.jobs.begin(), batch.jobs.end(), [&](std::size_t i) {
-    const Case& other = *jobs[i].c;
-    return other.delta == c.delta && other.scheme.model == c.scheme.model && other.mu == c.mu &&
-           other.scheme.kernel.label() == c.scheme.kernel.label();
-  });
-}
-
-/// Puts jobs together whose cases share their particles, but no more into a batch than leaves every worker something
-/// to do. Heaviest batch first.
+/// Puts jobs together whose cases share their particles, but no more into a batch than leaves every worker something to
+/// do; cases that share their sweeps stay together. Heaviest batch first.
 std::vector<Batch> batches_of(const std::vector<Job>& jobs, int workers) {
+  std::map<std::pair<std::string, std::string>, Batch> sweeps;  // by what is shared: particles, then sweeps
   double total = 0.0;
-  for (const Job& job : jobs) total += job.c->estimated_work();
-  const double most = workers == 1 ? total : total / (4.0 * workers);
-  std::vector<Batch> batches;
-  std::map<std::string, std::size_t> open;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const Case& c = *jobs[i].c;
-    const double work = c.estimated_work();
-    std::size_t batch = batches.size();
-    if (runs_in_vector_form(c)) {
-      const auto [entry, is_new] = open.try_emplace(ensemble_key(c), batch);
-      if (!is_new && batches[entry->second].work + work > most && !has_twin(c, batches[entry->second], jobs)) {
-        entry->second = batch;
-      }
-      batch = entry->second;
-    }
-    if (batch == batches.size()) batches.emplace_back();
-    batches[batch].jobs.push_back(i);
-    batches[batch].work += work;
+    const bool vector = runs_in_vector_form(c);
+    Batch& batch = sweeps[vector ? std::pair(ensemble_key(c), sweep_key(c)) : std::pair(c.key(), std::string())];
+    batch.jobs.push_back(i);
+    batch.work += c.estimated_work();
+    total += c.estimated_work();
+  }
+  const double most = workers == 1 ? total : total / (4.0 * workers);
+  std::vector<Batch> batches;
+  const std::string* particles = nullptr;
+  for (const auto& [key, sweep] : sweeps) {
+    const bool joins = particles != nullptr && *particles == key.first && batches.back().work + sweep.work <= most;
+    if (!joins) batches.emplace_back();
+    batches.back().jobs.insert(batches.back().jobs.end(), sweep.jobs.begin(), sweep.jobs.end());
+    batches.back().work += sweep.work;
+    particles = &key.first;
   }
   std::stable_sort(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) { return a.work > b.work; });
   return batches;

@@ -30,6 +30,10 @@ void powers_of_phases(const double* cosine, const double* sine, std::ptrdiff_t c
 
 }  // namespace
 
+double midpoint_reach(double delta, double largest_gap) {
+  return 0.625 * (std::max(delta, largest_gap) + sweeps().lanes * largest_gap);
+}
+
 VelocitySeries::VelocitySeries(const Scene& scene) {
   const auto series = [&](const Field& field) {
     return trigonometric_series(field, scene.period(), most_series_modes);
@@ -50,16 +54,21 @@ std::optional<MidpointModes> midpoint_modes(const Scene& scene) {
   modes.c_hat.constant = c.constant - b.constant;
   modes.b.constant = b.constant;
   const auto at = [](const std::vector<double>& values, std::size_t i) { return i < values.size() ? values[i] : 0.0; };
-  for (std::size_t i = 0; i < std::max(c.highest(), b.highest()); ++i) {
-    const double c_cosine = at(c.cosine, i), c_sine = at(c.sine, i), b_cosine = at(b.cosine, i), b_sine = at(b.sine, i);
-    if (c_cosine == 0.0 && c_sine == 0.0 && b_cosine == 0.0 && b_sine == 0.0) continue;
-    const std::size_t k = modes.number.size();
-    if (k == most_modes) return std::nullopt;
-    modes.number.push_back(static_cast<int>(i) + 1);
-    modes.c_hat.cosine[k] = c_cosine - b_cosine;
-    modes.c_hat.sine[k] = c_sine - b_sine;
-    modes.b.cosine[k] = b_cosine;
-    modes.b.sine[k] = b_sine;
+  for (const bool of_b : {true, false}) {
+    for (std::size_t i = 0; i < std::max(c.highest(), b.highest()); ++i) {
+      const double c_cosine = at(c.cosine, i), c_sine = at(c.sine, i);
+      const double b_cosine = at(b.cosine, i), b_sine = at(b.sine, i);
+      const bool in_b = b_cosine != 0.0 || b_sine != 0.0, in_c = c_cosine != 0.0 || c_sine != 0.0;
+      if (in_b != of_b || !(in_b || in_c)) continue;
+      const std::size_t k = modes.number.size();
+      if (k == most_modes) return std::nullopt;
+      modes.number.push_back(static_cast<int>(i) + 1);
+      modes.in_b += in_b ? 1 : 0;
+      modes.c_hat.cosine[k] = c_cosine - b_cosine;
+      modes.c_hat.sine[k] = c_sine - b_sine;
+      modes.b.cosine[k] = b_cosine;
+      modes.b.sine[k] = b_sine;
+    }
   }
   return modes;
 }
@@ -76,7 +85,7 @@ SharedParticles::SharedParticles(const Scene& scene, std::vector<double> start, 
   const std::size_t count = start_.size();
   if (needs.midpoints) {
     modes = midpoint_modes(scene);
-    mode_cosine.assign(modes->number.size(), PeriodicArray(count));
+    if (modes) mode_cosine.assign(modes->number.size(), PeriodicArray(count));
     mode_sine = mode_cosine;
   }
   if (needs.velocities) {
@@ -84,7 +93,7 @@ SharedParticles::SharedParticles(const Scene& scene, std::vector<double> start, 
   }
   if (needs.b_prime) b_prime = PeriodicArray(count);
   const bool by_series = (needs.velocities && (series_.c || series_.b)) || (needs.b_prime && series_.b_prime);
-  needs_.phases = needs.phases || needs.midpoints || by_series;
+  needs_.phases = needs.phases || modes || by_series;
   if (needs_.phases) {
     half_cosine_ = PeriodicArray(count);
     half_sine_ = PeriodicArray(count);
@@ -110,6 +119,7 @@ bool SharedParticles::move(double t) {
     wrap_positions();
     double smallest = x[1] - x[0];
     for (std::ptrdiff_t j = 0; j < std::ssize(x); ++j) smallest = std::min(smallest, x[j + 1] - x[j]);
+    if (needs_.midpoints && !modes) fit_panels();
     // not (smallest <= 0), so that NaN is refused
     if (!(smallest > 0.0)) {
       throw std::domain_error("particles have crossed: positions no longer increase within one period");
@@ -141,7 +151,7 @@ void SharedParticles::fill(std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (std::ptrdiff_t j = begin; j < end; ++j) c_hat[j] = c[j] - b[j];
   }
   if (needs_.b_prime) evaluate(series_.b_prime, b_prime, [&](auto at, auto out) { scene_.b_prime(at, out); });
-  if (!needs_.midpoints) return;
+  if (!modes) return;
   for (std::size_t k = 0; k < modes->number.size(); ++k) {
     powers_of_phases(half_cosine_.at(begin), half_sine_.at(begin), end - begin, modes->number[k],
                      &mode_cosine[k][begin], &mode_sine[k][begin]);
@@ -153,6 +163,18 @@ void SharedParticles::wrap_positions() {
   for (;; wrapped_ = std::min(2 * wrapped_, x.margin())) {
     x.wrap(wrapped_, scene_.period());
     if (wrapped_ == x.margin() || reach(needs_.inside) < wrapped_) return;
+  }
+}
+
+void SharedParticles::fit_panels() {
+  double largest = 0.0;
+  for (std::ptrdiff_t j = 0; j < std::ssize(x); ++j) largest = std::max(largest, x[j + 1] - x[j]);
+  const double reach = midpoint_reach(needs_.inside, largest);
+  if (panels && reach <= 1.25 * panels->reach()) return;
+  panels = VelocityPanels::find(scene_, reach);
+  if (!panels) {
+    throw std::runtime_error(
+        "the velocities vary too fast between particles and their neighbors for the vector form; use --form readable");
   }
 }
 

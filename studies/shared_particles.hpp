@@ -11,6 +11,7 @@
 #include "solver/particles.hpp"
 #include "solver/vector/sweeps.hpp"
 #include "studies/team.hpp"
+#include "studies/velocity_panels.hpp"
 
 namespace acstudy {
 
@@ -22,11 +23,16 @@ struct VelocitySeries {
 
 /// The modes that c_hat and b have at midpoints.
 struct MidpointModes {
-  std::vector<int> number;  ///< n of each, rising; at most `most_modes`
+  std::vector<int> number;  ///< n of each, those of b first; at most `most_modes`
+  int in_b = 0;             ///< how many are in b
   SweepField c_hat, b;
 };
 /// None where the velocities are no series of few enough modes.
 std::optional<MidpointModes> midpoint_modes(const Scene& scene);
+
+/// An upper bound of the distance from the middle of a vector of particles to their midpoints with neighbors, with some
+/// room for gaps that grow.
+double midpoint_reach(double delta, double largest_gap);
 
 /// What the sweeps of some cases need at the particles.
 struct Needs {
@@ -65,13 +71,15 @@ class SharedParticles {
   // with ghosts
   PeriodicArray x;
   PeriodicArray c, b, b_prime, c_hat;
-  std::optional<MidpointModes> modes;
+  std::optional<MidpointModes> modes;                 ///< of the velocities; none where
+  std::optional<VelocityPanels> panels;               ///< these are used
   std::vector<PeriodicArray> mode_cosine, mode_sine;  ///< cos(n w x/2) and sin(n w x/2) of each of `modes`
 
   double positions_seconds = 0.0, velocities_seconds = 0.0;
 
  private:
   void fill(std::ptrdiff_t begin, std::ptrdiff_t end);
+  void fit_panels();
   void wrap_positions();
   void wrap_fields();
 

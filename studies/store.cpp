@@ -230,14 +230,10 @@ Finding read_finding(hid_t group) {
   return finding;
 }
 
-/// The HDF5 file as bytes. HDF5 builds it in memory, because a disk that is full leaves the library's own file driver
-/// in a state in which it can only crash.
+/// The HDF5 file as bytes.
 std::vector<char> h5_image(const StudyResult& result, const Provenance& provenance) {
   const Study& study = *result.study;
-  const h5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file access properties");
-  h5::check(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "choose the memory driver");
-  const h5::Handle root(H5Fcreate((study.name + ".h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
-                        "create a file in memory");
+  const h5::Handle root = h5::create_file_in_memory(study.name + ".h5");
   h5::write_text(root, "format", format);
   h5::write_text(root, "study", study.name);
   h5::write_text(root, "title", study.title);
@@ -265,14 +261,7 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
     if (result.findings[i]) write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
   }
-  h5::check(H5Fflush(root, H5F_SCOPE_GLOBAL), "flush the file in memory");
-  const ssize_t size = H5Fget_file_image(root, nullptr, 0);
-  if (size < 0) throw StoreError("HDF5 could not give the file in memory");
-  std::vector<char> image(static_cast<std::size_t>(size));
-  if (H5Fget_file_image(root, image.data(), image.size()) != size) {
-    throw StoreError("HDF5 could not give the file in memory");
-  }
-  return image;
+  return h5::image(root);
 }
 
 }  // namespace

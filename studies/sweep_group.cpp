@@ -128,10 +128,13 @@ void SweepGroup::sweep_moving(Team& team) {
                            begin_of(particles_.c), begin_of(particles_.b), local, nonlocal},
                sweeps().upwind);
   } else {
-    const MidpointModes& modes = *particles_.modes;
+    const MidpointModes modes = particles_.modes.value_or(MidpointModes{});
     SymmetricSweep sweep{.kernel = kernel_->sweep,
                          .mu = mu_,
+                         .x = particles_.x.at(0),
+                         .panels = particles_.panels ? particles_.panels->view() : SweepPanels{},
                          .modes = static_cast<int>(modes.number.size()),
+                         .b_modes = modes.in_b,
                          .half_cosine = {},
                          .half_sine = {},
                          .c_hat = modes.c_hat,
@@ -139,9 +142,10 @@ void SweepGroup::sweep_moving(Team& team) {
                          .b_prime = begin_of(particles_.b_prime),
                          .local = local,
                          .nonlocal = nonlocal};
-    for (int k = 0; k < sweep.modes; ++k) {
-      sweep.half_cosine[k] = particles_.mode_cosine[k].at(0);
-      sweep.half_sine[k] = particles_.mode_sine[k].at(0);
+    // Modes that there are not have coefficients of zero; what they are read from is of no matter.
+    for (int k = 0; k < most_modes; ++k) {
+      sweep.half_cosine[k] = k < sweep.modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
+      sweep.half_sine[k] = k < sweep.modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
     }
     each_range(sweep, sweeps().symmetric);
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/vector/clones.hpp"
+
 namespace acstudy {
 
 void BoundWatch::step(std::int64_t n, TimeStep step) {
@@ -18,14 +20,21 @@ void BoundWatch::step(std::int64_t n, TimeStep step) {
 
 GrowthWatch::GrowthWatch(std::span<const double> u) : exact_(size(u)), last_u_(u.begin(), u.end()) {}
 
-double GrowthWatch::size(std::span<const double> u) {
+namespace {
+
+ACSTUDY_VECTOR_CLONES double largest_or_not_finite(const double* u, std::size_t count) {
   double largest = 0.0, sum = 0.0;
-  for (const double value : u) {
-    largest = std::max(largest, std::abs(value));
-    sum += 0.0 * value;  // NaN if the value is not finite, which std::max passes over
+#pragma omp simd reduction(max : largest) reduction(+ : sum)
+  for (std::size_t j = 0; j < count; ++j) {
+    largest = std::abs(u[j]) > largest ? std::abs(u[j]) : largest;
+    sum += 0.0 * u[j];  // NaN if the value is not finite, which the comparison passes over
   }
   return largest + sum;
 }
+
+}  // namespace
+
+double GrowthWatch::size(std::span<const double> u) { return largest_or_not_finite(u.data(), u.size()); }
 
 void GrowthWatch::give_up(std::int64_t n, double t, std::span<const double> u, std::int64_t last_step, double last_t,
                           const std::string& how) {

@@ -774,7 +774,7 @@ class Words(ProgramTest):
         done = self.acstudy("--version")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertRegex(done.stdout, r"\Aacstudy \d+\.\d+\.\d+\S*\n\Z")
-        for arguments, words in ((("--help",), ("run", "check", "fit", "explain", "list", "--version", "Exit codes", "130")),
+        for arguments, words in ((("--help",), ("run", "check", "fit", "bench", "explain", "list", "--version", "Exit codes", "130")),
                                  (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--repeats", "--fresh")),
                                  (("check", "--help"), ("FILE.json", "exit 1")),
                                  (("fit", "--help"), ("TABLE.csv", "--variable", "--error", "--weight", "--order", "--json")),

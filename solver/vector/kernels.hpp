@@ -16,60 +16,59 @@ struct CellLanes {
   Lanes rest_inner, rest_outer;
 };
 
-// What the sums ask of a kernel K. Its pieces end at K::breakpoint (1: there is one piece), and a cell within one of
-// them needs no look at the other:
-//
-//   first_moment<piece>(cell), mass<piece>(cell)   as the kernel's own; see solver/kernels.hpp
-
+/// Where a cell lies: within a piece of the kernel, or possibly across its breakpoint.
 enum class Piece { inside, outside, any };
+
+// What the sums ask of a kernel K. A constant factor that all cells of a particle share is put in last (Model I) or
+// cancels (Model II):
+//
+//   K::breakpoint               end of the piece `inside`, or 1
+//   K::moment_scale             what first_moment has to be multiplied with
+//   first_moment<piece>(cell)   proportional to the kernel's own; see solver/kernels.hpp
+//   mass<piece>(cell)           likewise
 
 /// eta(z) = 1/z.
 struct InverseLanes {
   static constexpr double breakpoint = 1.0;
+  static constexpr double moment_scale = 1.0;
   template <Piece>
   Lanes first_moment(const CellLanes& cell) const {
     return cell.width;
   }
 };
 
-/// The derivative of the cubic B-spline; the formulas of CubicSplineKernel.
+/// The derivative of the cubic B-spline. Within a piece these are the formulas of CubicSplineKernel. Across the
+/// breakpoint the outer polynomial is the inner one and a power of what is beyond 1/2:
+/// eta = 32 z - 48 z^2 + 64 (z - 1/2)_+^2.
 struct CubicSplineLanes {
   static constexpr double breakpoint = 0.5;
 
   template <Piece piece>
   Lanes mass(const CellLanes& cell) const {
-    const auto inside = [](Lanes width, Lanes sum, Lanes product) { return width * (sum * (1.0 - sum) + product); };
-    const auto outside = [](Lanes width, Lanes sum, Lanes product) {
-      return width * (sum * sum - product) * (1.0 / 3.0);
-    };
-    return 16.0 * cut<piece>(cell, inside, outside);
-  }
-  template <Piece piece>
-  Lanes first_moment(const CellLanes& cell) const {
-    const auto inside = [](Lanes width, Lanes sum, Lanes product) {
-      return width * (sum * sum * (8.0 - 9.0 * sum) - product * (8.0 - 18.0 * sum));
-    };
-    const auto outside = [](Lanes width, Lanes sum, Lanes product) {
-      return width * (sum * sum * (4.0 - 3.0 * sum) - product * (4.0 - 6.0 * sum));
-    };
-    return (4.0 / 3.0) * cut<piece>(cell, inside, outside);
+    const auto& [a, b, width, rest_a, rest_b] = cell;
+    if constexpr (piece == Piece::outside) {
+      const Lanes sum = rest_a + rest_b;
+      return width * (sum * sum - rest_a * rest_b) * (1.0 / 3.0);
+    } else {
+      const Lanes sum = a + b, inside = width * (sum * (1.0 - sum) + a * b);
+      if constexpr (piece == Piece::inside) return inside;
+      const Lanes p = max(a - 0.5, Lanes{}), q = max(b - 0.5, Lanes{});
+      return inside + (4.0 / 3.0) * (q - p) * (p * p + p * q + q * q);
+    }
   }
 
- private:
-  template <Piece piece, class Inside, class Outside>
-  static Lanes cut(const CellLanes& cell, Inside inside, Outside outside) {
+  static constexpr double moment_scale = 4.0 / 3.0;
+  template <Piece piece>
+  Lanes first_moment(const CellLanes& cell) const {
     const auto& [a, b, width, rest_a, rest_b] = cell;
-    if constexpr (piece == Piece::inside) {
-      return inside(width, a + b, a * b);
-    } else if constexpr (piece == Piece::outside) {
-      return outside(width, rest_a + rest_b, rest_a * rest_b);
+    if constexpr (piece == Piece::outside) {
+      const Lanes sum = rest_a + rest_b;
+      return width * (sum * sum * (4.0 - 3.0 * sum) - rest_a * rest_b * (4.0 - 6.0 * sum));
     } else {
-      const Lanes half = spread(0.5);
-      const Lanes width_inside = min(max(half - a, Lanes{}), width);
-      const Lanes a_in = min(a, half), b_in = min(b, half);
-      const Lanes rest_a_out = min(rest_a, half), rest_b_out = min(rest_b, half);
-      return inside(width_inside, a_in + b_in, a_in * b_in) +
-             outside(width - width_inside, rest_a_out + rest_b_out, rest_a_out * rest_b_out);
+      const Lanes sum = a + b, inside = width * (sum * sum * (8.0 - 9.0 * sum) - a * b * (8.0 - 18.0 * sum));
+      if constexpr (piece == Piece::inside) return inside;
+      const Lanes p = max(a - 0.5, Lanes{}), q = max(b - 0.5, Lanes{});
+      return inside + (q - p) * (8.0 * (p * p + p * q + q * q) + 12.0 * (p + q) * (p * p + q * q));
     }
   }
 };
@@ -85,6 +84,7 @@ class ScalarLanes {
   ScalarLanes(const void* kernel, CellFunction cell_moment, CellFunction cell_mass)
       : kernel_(kernel), first_moment_(cell_moment), mass_(cell_mass) {}
 
+  static constexpr double moment_scale = 1.0;
   template <Piece>
   Lanes first_moment(const CellLanes& cells) const {
     return each(first_moment_, cells);

@@ -57,14 +57,28 @@ struct SweepField {
   double cosine[most_modes] = {}, sine[most_modes] = {};
 };
 
+/// Fields of a period as polynomials on overlapping panels, each of which holds all midpoints of some particles and
+/// their neighbors: panel q is about q `spacing`, `radius` to each side, and serves particles nearest to its center.
+struct SweepPanels {
+  double spacing = 0.0, radius = 0.0;
+  std::ptrdiff_t count = 0;
+  int terms =
+      0;  ///< coefficients of a polynomial in (x - center)/radius, lowest first; a multiple of four; 0: no panels
+  const double *c_hat = nullptr, *b = nullptr;  ///< [count][terms]
+};
+
 /// Model II, (3.8) and (3.10).
 ///
-/// A mode of the midpoint is a sum of products over the two particles, cos(n w (x + y)/2) = C(x) C(y) - S(x) S(y) with
-/// C(x) = cos(n w x/2), S(x) = sin(n w x/2).
+/// Velocities at midpoints come from panels or, where they have few modes, from these. A mode of the midpoint is a sum
+/// of products over the two particles, cos(n w (x + y)/2) = C(x) C(y) - S(x) S(y) with C(x) = cos(n w x/2), S(x) =
+/// sin(n w x/2).
 struct SymmetricSweep {
   SweepKernel kernel;
   double mu;
-  int modes;
+  const double* x;  ///< with ghosts
+  SweepPanels panels;
+  int modes;                              ///< those of b first
+  int b_modes;                            ///< how many of them are in b
   const double* half_cosine[most_modes];  ///< C of each mode, with ghosts
   const double* half_sine[most_modes];    ///< S
   SweepField c_hat, b;

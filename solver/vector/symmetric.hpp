@@ -3,41 +3,12 @@
 /// @file
 /// Model II for several particles at a time; see ModelII.
 
+#include "solver/vector/midpoints.hpp"
 #include "solver/vector/sweeps.hpp"
 #include "solver/vector/walk.hpp"
 
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
-
-/// c_hat and b at the midpoints between particles and their neighbors.
-template <int modes>
-class Midpoints {
- public:
-  Midpoints(const SymmetricSweep& sweep, std::ptrdiff_t j) : sweep_(sweep) {
-    for (int n = 0; n < modes; ++n) {
-      const Lanes C = load(sweep.half_cosine[n] + j), S = load(sweep.half_sine[n] + j);
-      c_hat_C_[n] = sweep.c_hat.cosine[n] * C + sweep.c_hat.sine[n] * S;
-      c_hat_S_[n] = sweep.c_hat.sine[n] * C - sweep.c_hat.cosine[n] * S;
-      b_C_[n] = sweep.b.cosine[n] * C + sweep.b.sine[n] * S;
-      b_S_[n] = sweep.b.sine[n] * C - sweep.b.cosine[n] * S;
-    }
-  }
-  Lanes c_hat(std::ptrdiff_t i) const { return at(i, sweep_.c_hat.constant, c_hat_C_, c_hat_S_); }
-  Lanes b(std::ptrdiff_t i) const { return at(i, sweep_.b.constant, b_C_, b_S_); }
-
- private:
-  Lanes at(std::ptrdiff_t i, double constant, const Lanes (&by_C)[modes + 1], const Lanes (&by_S)[modes + 1]) const {
-    Lanes value = spread(constant);
-    for (int n = 0; n < modes; ++n) {
-      value += by_C[n] * load(sweep_.half_cosine[n] + i);
-      value += by_S[n] * load(sweep_.half_sine[n] + i);
-    }
-    return value;
-  }
-
-  const SymmetricSweep& sweep_;
-  Lanes c_hat_C_[modes + 1], c_hat_S_[modes + 1], b_C_[modes + 1], b_S_[modes + 1];
-};
 
 /// Sums over the neighbors of a particle with m = 2 delta |W|, sign(k) m = 2 delta W: of |d| m, m/|d| and sign(k) b m;
 /// of sign(k) c_hat m, and the last two kinds with u of the neighbor.
@@ -47,7 +18,7 @@ struct SymmetricSums {
   Lanes c_hat_u_nonlocal = {}, slope_u_nonlocal = {};
 };
 
-template <bool local, bool nonlocal, int modes, class K>
+template <bool local, bool nonlocal, class Midpoints, class K>
 class Symmetric {
  public:
   Symmetric(const SweepRange& range, const SymmetricSweep& sweep, K kernel)
@@ -56,7 +27,7 @@ class Symmetric {
   std::int64_t run() {
     for (std::ptrdiff_t j = range_.begin; j < range_.end; j += lane_count) {
       const Mask counted = counting_from(0.0) < spread(static_cast<double>(range_.end - j));
-      const Midpoints<modes> midpoints(sweep_, j);
+      const Midpoints midpoints(sweep_, j);
       SymmetricSums sum;
       const Lanes l = add<+1>(j, midpoints, counted, sum), r = add<-1>(j, midpoints, counted, sum);
       finish(j, max(max(l, r), spread(range_.delta)), sum);
@@ -67,10 +38,13 @@ class Symmetric {
  private:
   /// Adds what is on the left (s = +1) or right (s = -1). @return distance of the outermost neighbor there
   template <int s>
-  Lanes add(std::ptrdiff_t j, const Midpoints<modes>& midpoints, Mask counted, SymmetricSums& total) {
+  Lanes add(std::ptrdiff_t j, const Midpoints& midpoints, Mask counted, SymmetricSums& total) {
     SymmetricSums sum = total;
     const Lanes zero = {};
     const int counted_lanes = count(counted);
+    // W < 0 on the left
+    const auto add_signed = [](Lanes& to, Lanes value)
+                                ACSTUDY_ALWAYS_INLINE { s > 0 ? void(to -= value) : void(to += value); };
     const auto visit = [&]<class Kind>(Kind, const Neighbor& neighbor) ACSTUDY_ALWAYS_INLINE {
       const std::ptrdiff_t i = j - s * neighbor.k;
       Lanes m = kernel_.template mass<Kind::piece>(neighbor.cell);
@@ -83,19 +57,17 @@ class Symmetric {
       const Lanes slope = m / neighbor.distance;
       sum.moment += neighbor.distance * m;
       sum.slope += slope;
-      // k < 0 on the left
-      const Lanes signed_m = s > 0 ? -m : m;
-      const Lanes c_hat_m = midpoints.c_hat(i) * signed_m;
-      sum.c_hat += c_hat_m;
+      const Lanes c_hat_m = midpoints.c_hat(i, neighbor.x) * m;
+      add_signed(sum.c_hat, c_hat_m);
       if constexpr (local) {
         const Lanes u = load(sweep_.local.u + i);
-        sum.c_hat_u_local += c_hat_m * u;
+        add_signed(sum.c_hat_u_local, c_hat_m * u);
         sum.slope_u_local += slope * u;
       }
       if constexpr (nonlocal) {
         const Lanes u = load(sweep_.nonlocal.u + i);
-        sum.b += midpoints.b(i) * signed_m;
-        sum.c_hat_u_nonlocal += c_hat_m * u;
+        add_signed(sum.b, midpoints.b(i, neighbor.x) * m);
+        add_signed(sum.c_hat_u_nonlocal, c_hat_m * u);
         sum.slope_u_nonlocal += slope * u;
       }
     };
@@ -125,21 +97,32 @@ class Symmetric {
   std::int64_t pairs_ = 0;
 };
 
-template <int modes, class K>
+template <class Midpoints, class K>
 std::int64_t symmetric_with(const SweepRange& range, const SymmetricSweep& sweep, K kernel) {
-  if (modes < sweep.modes) {
-    if constexpr (modes < most_modes) return symmetric_with<modes + 1>(range, sweep, kernel);
-  }
   const bool local = sweep.local.u != nullptr, nonlocal = sweep.nonlocal.u != nullptr;
-  if (local && nonlocal) return Symmetric<true, true, modes, K>(range, sweep, kernel).run();
-  if (local) return Symmetric<true, false, modes, K>(range, sweep, kernel).run();
-  return Symmetric<false, true, modes, K>(range, sweep, kernel).run();
+  if (local && nonlocal) return Symmetric<true, true, Midpoints, K>(range, sweep, kernel).run();
+  if (local) return Symmetric<true, false, Midpoints, K>(range, sweep, kernel).run();
+  return Symmetric<false, true, Midpoints, K>(range, sweep, kernel).run();
 }
 
 inline std::int64_t symmetric_sweep(const SweepRange& range, const SymmetricSweep& sweep) {
   const SweepKernel& kernel = sweep.kernel;
-  if (kernel.form == SweepKernel::Form::cubic_spline) return symmetric_with<0>(range, sweep, CubicSplineLanes{});
-  return symmetric_with<0>(range, sweep, ScalarLanes(kernel.kernel, kernel.first_moment, kernel.mass));
+  const bool polynomial = sweep.panels.terms > 0;
+  if (kernel.form != SweepKernel::Form::cubic_spline) {
+    const ScalarLanes scalar(kernel.kernel, kernel.first_moment, kernel.mass);
+    return polynomial ? symmetric_with<PolynomialMidpoints>(range, sweep, scalar)
+                      : symmetric_with<TrigonometricMidpoints<most_modes, most_modes>>(range, sweep, scalar);
+  }
+  const CubicSplineLanes spline;
+  if (polynomial) return symmetric_with<PolynomialMidpoints>(range, sweep, spline);
+  // Numbers of modes that are not here take the next larger ones; the rest of their coefficients is zero.
+  if (sweep.modes == 0) return symmetric_with<TrigonometricMidpoints<0, 0>>(range, sweep, spline);
+  if (sweep.modes == 1) return symmetric_with<TrigonometricMidpoints<1, 1>>(range, sweep, spline);
+  if (sweep.modes == 2 && sweep.b_modes <= 1) {
+    return symmetric_with<TrigonometricMidpoints<2, 1>>(range, sweep, spline);
+  }
+  if (sweep.modes == 2) return symmetric_with<TrigonometricMidpoints<2, 2>>(range, sweep, spline);
+  return symmetric_with<TrigonometricMidpoints<most_modes, most_modes>>(range, sweep, spline);
 }
 
 }  // namespace ACSTUDY_ISA

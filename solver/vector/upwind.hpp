@@ -61,7 +61,8 @@ class Upwind {
       }
     };
     walk<s, K>(range_.x + j, {range_.delta, range_.inside}, active, visit);
-    return sum;
+    const double scale = K::moment_scale;
+    return {sum.W * scale, sum.flux_local * scale, sum.b * scale, sum.flux_nonlocal * scale};
   }
 
   /// (2.9) and (2.11) with the sums taken apart.

@@ -17,6 +17,7 @@ struct Horizon {
 /// What a visit finds at the neighbor k of every lane.
 struct Neighbor {
   std::ptrdiff_t k;
+  Lanes x;
   Lanes distance;
   CellLanes cell;
   Mask active;  ///< only where some lanes are through with their window
@@ -57,6 +58,7 @@ ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask a
     rest_before = cell.rest_outer;
     ++k;
   };
+  // Neighbors with the next one within `limit`, up to the first whose cell begins at `until` or beyond it.
   const auto unmasked = [&]<Piece piece>(Lanes limit, double until) ACSTUDY_ALWAYS_INLINE {
     for (;;) {
       if (until > 0.0 && all_at_most(spread(until), z_before)) return;
@@ -64,7 +66,7 @@ ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask a
       if (!all_at_most(next_distance, limit)) return;
       const CellLanes cell{z_before, distance * per_delta, gap() * per_delta, rest_before,
                            (delta - distance) * per_delta};
-      visit(VisitKind<piece, false>{}, Neighbor{k, distance, cell, active});
+      visit(VisitKind<piece, false>{}, Neighbor{k, here, distance, cell, active});
       step_to(next, next_distance, cell);
     }
   };
@@ -80,21 +82,27 @@ ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask a
   }
 
   Lanes outermost = {};
-  while (any(active)) {
-    const Lanes next = next_neighbor(), next_distance = distance_of(next);
-    const Mask goes_on = active & (next_distance <= inside);
-    const Lanes z = distance * per_delta;
-    CellLanes cell;
-    cell.inner = z_before;
-    cell.rest_inner = rest_before;
-    cell.outer = goes_on ? min(z, spread(1.0)) : spread(1.0);
-    cell.rest_outer = goes_on ? max((delta - distance) * per_delta, Lanes{}) : Lanes{};
-    cell.width = goes_on ? min(gap() * per_delta, rest_before) : rest_before;
-    cell.width = active ? cell.width : Lanes{};
-    visit(VisitKind<Piece::any, true>{}, Neighbor{k, distance, cell, active});
-    outermost = active ? distance : outermost;
-    active = goes_on;
-    step_to(next, next_distance, cell);
+  const auto masked = [&]<Piece piece>() ACSTUDY_ALWAYS_INLINE {
+    while (any(active)) {
+      const Lanes next = next_neighbor(), next_distance = distance_of(next);
+      const Mask goes_on = active & (next_distance <= inside);
+      CellLanes cell;
+      cell.inner = z_before;
+      cell.rest_inner = rest_before;
+      cell.outer = goes_on ? min(distance * per_delta, spread(1.0)) : spread(1.0);
+      cell.rest_outer = goes_on ? max((delta - distance) * per_delta, Lanes{}) : Lanes{};
+      // The last cell ends at the horizon, beyond which a neighbor that ties with it may stand.
+      cell.width = goes_on ? min(gap() * per_delta, rest_before) : rest_before;
+      visit(VisitKind<piece, true>{}, Neighbor{k, here, distance, cell, active});
+      outermost = active ? distance : outermost;
+      active = goes_on;
+      step_to(next, next_distance, cell);
+    }
+  };
+  if (K::breakpoint < 1.0 && all_at_most(spread(K::breakpoint), z_before)) {
+    masked.template operator()<Piece::outside>();
+  } else {
+    masked.template operator()<Piece::any>();
   }
   return outermost;
 }

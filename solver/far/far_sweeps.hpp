@@ -1,0 +1,44 @@
+#pragma once
+
+/// @file
+/// Sweeps whose cost per particle does not grow with the number of neighbors; for horizons of many spacings.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "solver/far/scratch.hpp"
+#include "solver/vector/sweeps.hpp"
+
+namespace acstudy::far {
+
+/// What one thread keeps from sweep to sweep. A sweep uses it alone.
+struct Memory {
+  Scratch outermost, moments;
+};
+
+/// The far form of the sweeps of one instruction set: the same arguments and results as those of Sweeps, to 1e-14 of
+/// the largest rate.
+///
+/// Numbers depend on where a range begins and ends, by round-off: for the same bits with any number of threads, cut the
+/// ranges in a way that does not follow it, such as by range_size(). `begin` need not be a multiple of anything, and
+/// nothing is written outside of the range.
+struct FarSweeps {
+  const char* name;  ///< that of the Sweeps
+  std::int64_t (*upwind)(const SweepRange&, const UpwindSweep&, Memory&);
+};
+
+/// Those of the instruction set of sweeps().
+const FarSweeps& far_sweeps();
+
+/// True if there is a far form for the kernel and it is the faster one at a mean of `neighbors` on a side.
+///
+/// The crossover is measured, by bench/far_benchmark.cpp.
+bool far_pays(SweepKernel::Form upwind_kernel, double neighbors);
+
+/// How many particles a range should have at least: filling its first window takes as long as to sum a quarter as many.
+std::ptrdiff_t range_size(std::ptrdiff_t neighbors);
+
+/// log2 of delta/nearest, for some 24 to 48 direct pairs on a side; 0: sum all of them directly.
+int log2_ratio_for(std::ptrdiff_t neighbors);
+
+}  // namespace acstudy::far

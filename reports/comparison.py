@@ -76,4 +76,4 @@ def section(comparison):
 def _table(title, columns, rows):
     body = "".join(f'<tr><th scope="row">{escape(row[0])}</th>'
                    + "".join(f'<td class="number">{escape(cell)}</td>' for cell in row[1:]) + "</tr>\n" for row in rows)
-    return markup.table([escape(column) for column in columns], body, title)
+    return markup.table([escape(column) for column in columns], body, title, numbers=True)

@@ -60,8 +60,8 @@ def section(comparison):
         said = (f'<p class="outcome bad">{len(comparison.wrong)} errors are not those of acstudy, so that run times '
                 f"mean nothing.</p>\n<ul>{lines}</ul>\n")
     else:
-        said = (f'<p class="outcome good">All programs have the same errors, to 1e-9, in {comparison.cases} cases.'
-                "</p>\n"
+        said = (f'<p class="outcome good">All programs have the same errors, to 1e-9, in those of '
+                f"{comparison.cases} cases that they run.</p>\n"
                 "<p>Run times as multiples of those of acstudy on one thread: the median over the rounds of the ratio "
                 "within a round and, in brackets, the smallest and the largest. Cases that acstudy runs on the same "
                 "particles share their time.</p>\n")
@@ -76,4 +76,4 @@ def section(comparison):
 def _table(title, columns, rows):
     body = "".join(f'<tr><th scope="row">{escape(row[0])}</th>'
                    + "".join(f'<td class="number">{escape(cell)}</td>' for cell in row[1:]) + "</tr>\n" for row in rows)
-    return markup.table([escape(column) for column in columns], body, title)
+    return markup.table([escape(column) for column in columns], body, title, numbers=True)

@@ -20,7 +20,7 @@ import programs as known
 import selection
 import summary
 
-FORMAT = "acstudy comparison 1"   # of what is stored
+FORMAT = "acstudy comparison 1"
 FILE = "compare.json"
 LEVELS = {"quick": selection.coarsest, "default": selection.representative, "all": selection.every}
 
@@ -176,6 +176,8 @@ def read_comparison(file):
         found = json.loads(file.read_text(encoding="utf-8"))
         if found["format"] != FORMAT:
             raise ValueError(f"format = {found['format']!r}")
+        for entry in ("wrong", "tables", "rounds", "command", "machine", "programs"):
+            found[entry]
         return found
     except (KeyError, TypeError, ValueError) as error:
         raise Failure(2, f"{file}: not a comparison: {error}; run make compare again") from error

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "build_info.hpp"
 #include "studies/h5.hpp"
 #include "studies/result_json.hpp"
 
@@ -356,6 +357,8 @@ StoredCases load_cases(const fs::path& file) {
     const h5::Handle root(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open it");
     if (h5::read_text(root, "format") != format) throw StoreError("its format is not " + std::string(format));
     const h5::Handle origin = h5::open_group(root, "provenance");
+    // Nothing that other sources have computed is used again, and they may have stored it in another way.
+    if (h5::read_text(origin, "numerics") != build_info::numerics) return stored;
     for (const auto& [name, value] : collect_provenance(0, ""))
       stored.provenance.emplace_back(name, h5::read_text(origin, name));
     const h5::Handle all = h5::open_group(root, "series");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mms/vector_math.hpp"
+#include "solver/vector/sweeps.hpp"
 
 namespace acstudy {
 
@@ -19,26 +20,6 @@ ACSTUDY_VECTOR_CLONES void sweep_phases(Block& cosine, Block& sine, std::size_t 
   // cosine holds w x/2 at first
   for (std::size_t i = 0; i < n; ++i) sine[i] = std::sin(cosine[i]);
   for (std::size_t i = 0; i < n; ++i) cosine[i] = std::cos(cosine[i]);
-}
-
-/// Horner's rule in e^{i w x}: the real part of sum_n (cosine_n - i sine_n) e^{i n w x}.
-ACSTUDY_VECTOR_CLONES void sweep_series(const double* half_cosine, const double* half_sine, const double* cosine,
-                                        const double* sine, std::size_t highest, double constant, double* out,
-                                        std::size_t n) {
-  Block C, S, real, imaginary;
-  for (std::size_t i = 0; i < n; ++i) {
-    C[i] = 1.0 - 2.0 * half_sine[i] * half_sine[i];
-    S[i] = 2.0 * half_sine[i] * half_cosine[i];
-    real[i] = imaginary[i] = 0.0;
-  }
-  for (std::size_t mode = highest; mode-- > 0;) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const double a = real[i] + cosine[mode], b = imaginary[i] - sine[mode];
-      real[i] = a * C[i] - b * S[i];
-      imaginary[i] = a * S[i] + b * C[i];
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) out[i] = constant + real[i];
 }
 
 constexpr std::size_t whole_vectors(std::size_t n) { return (n + vector_width - 1) / vector_width * vector_width; }
@@ -58,22 +39,8 @@ void half_phases(std::span<const double> x, double period, std::span<double> cos
 }
 
 void TrigonometricSeries::evaluate(const HalfPhases& points, std::span<double> out) const {
-  const auto sweep = [&](const double* half_cosine, const double* half_sine, double* to, std::size_t n) {
-    sweep_series(half_cosine, half_sine, cosine.data(), sine.data(), highest(), constant, to, n);
-  };
-  for (std::size_t begin = 0; begin < out.size(); begin += block_size) {
-    const std::size_t here = std::min(block_size, out.size() - begin), whole = here / vector_width * vector_width;
-    const double *const C = points.cosine.data() + begin, *const S = points.sine.data() + begin;
-    sweep(C, S, out.data() + begin, whole);
-    if (const std::size_t rest = here - whole; rest > 0) {
-      // A whole vector again: the value at a point must not depend on where in the array it stands.
-      std::array<double, vector_width> last_C{}, last_S{}, last{};
-      std::copy_n(C + whole, rest, last_C.begin());
-      std::copy_n(S + whole, rest, last_S.begin());
-      sweep(last_C.data(), last_S.data(), last.data(), vector_width);
-      std::copy_n(last.begin(), rest, out.begin() + begin + whole);
-    }
-  }
+  sweeps().series({constant, cosine.data(), sine.data(), std::ssize(cosine)}, points.cosine.data(), points.sine.data(),
+                  out.data(), std::ssize(out));
 }
 
 PeriodicSamples::PeriodicSamples(double period, std::size_t count) : x_(count), cosine_(count), sine_(count) {

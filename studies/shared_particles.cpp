@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "solver/vector/clones.hpp"
 #include "studies/stopwatch.hpp"
 
 namespace acstudy {
@@ -13,6 +14,18 @@ namespace {
 
 /// Longer series cost more than the expressions that they stand for.
 constexpr std::size_t most_series_modes = 16;
+
+/// The smallest x[j + 1] - x[j]; NaN if one is.
+ACSTUDY_VECTOR_CLONES double smallest_gap_of(const double* x, std::ptrdiff_t count) {
+  double smallest = x[1] - x[0], sum = 0.0;
+#pragma omp simd reduction(min : smallest) reduction(+ : sum)
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
+    const double gap = x[j + 1] - x[j];
+    smallest = gap < smallest ? gap : smallest;
+    sum += 0.0 * gap;  // NaN if the gap is, which the comparison passes over
+  }
+  return smallest + sum;
+}
 
 /// e^{i n w x/2} from e^{i w x/2}, by its real and imaginary part.
 void powers_of_phases(const double* cosine, const double* sine, std::ptrdiff_t count, int n, double* power_cosine,
@@ -117,8 +130,7 @@ bool SharedParticles::move(double t) {
       std::copy(now.begin(), now.end(), x.values().begin());
     }
     wrap_positions();
-    double smallest = x[1] - x[0];
-    for (std::ptrdiff_t j = 0; j < std::ssize(x); ++j) smallest = std::min(smallest, x[j + 1] - x[j]);
+    const double smallest = smallest_gap_of(x.at(0), std::ssize(x));
     if (needs_.midpoints && !modes) fit_panels();
     // not (smallest <= 0), so that NaN is refused
     if (!(smallest > 0.0)) {

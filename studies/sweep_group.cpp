@@ -103,7 +103,9 @@ void SweepGroup::sweep_moving(Team& team) {
     SweepScheme swept;
     if (values == nullptr) return swept;
     if (model_ == 1) {
-      for (std::ptrdiff_t j = 0; j < count; ++j) values->flux[j] = particles_.c_hat[j] * values->u[j];
+      team.each(count, 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t j = begin; j < end; ++j) values->flux[j] = particles_.c_hat[j] * values->u[j];
+      });
       values->flux.wrap(reach);
       swept.flux = values->flux.at(0);
     }

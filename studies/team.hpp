@@ -26,15 +26,20 @@ class Team {
             const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work);
 
  private:
-  void serve();
-  void take_pieces();
+  /// One thread's part of the range: what is not yet taken of it.
+  struct alignas(64) Part {
+    std::atomic<std::ptrdiff_t> next{0};
+    std::ptrdiff_t end = 0;
+  };
+  void serve(std::size_t own);
+  void take_pieces(std::size_t own);
 
   std::vector<std::thread> others_;
   std::atomic<unsigned> round_{0};  ///< counts calls of each() and the end
   std::atomic<int> busy_{0};        ///< others that have not finished the round
   std::atomic<bool> ends_{false};
-  std::atomic<std::ptrdiff_t> next_{0};
-  std::ptrdiff_t count_ = 0, piece_ = 0;
+  std::vector<Part> parts_;
+  std::ptrdiff_t piece_ = 0;
   const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>* work_ = nullptr;
 };
 

@@ -102,6 +102,13 @@ struct BandedMatrix {
   BandedMatrix(const RateMatrix& R, int lanes);
 };
 
+/// constant + sum_n cosine_n cos(n w x) + sine_n sin(n w x), n = 1 .. highest.
+struct SweepSeries {
+  double constant;
+  const double *cosine, *sine;
+  std::ptrdiff_t highest;
+};
+
 /// The sweeps of one instruction set. They return the number of pairs.
 struct Sweeps {
   const char* name;  ///< "x86-64-v4", ...
@@ -111,6 +118,9 @@ struct Sweeps {
   /// rate = R u for blocks begin .. end - 1 of a BandedMatrix, u with ghosts.
   void (*banded)(const BandedMatrix::Block* blocks, const double* value, const double* u, double* rate,
                  std::ptrdiff_t begin, std::ptrdiff_t end);
+  /// The series at points given by cos(w x/2) and sin(w x/2).
+  void (*series)(const SweepSeries& series, const double* half_cosine, const double* half_sine, double* out,
+                 std::ptrdiff_t count);
 };
 
 /// The widest that this processor has; ACSTUDY_VECTOR in the environment names another one.

@@ -1,6 +1,7 @@
 // Compiled once per instruction set; ACSTUDY_ISA and ACSTUDY_ISA_NAME are given on the command line.
 
 #include "solver/vector/banded.hpp"
+#include "solver/vector/series.hpp"
 #include "solver/vector/sweeps.hpp"
 #include "solver/vector/symmetric.hpp"
 #include "solver/vector/upwind.hpp"
@@ -9,7 +10,7 @@ namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
 extern const Sweeps table;
-const Sweeps table = {ACSTUDY_ISA_NAME, lane_count, upwind_sweep, symmetric_sweep, banded_sweep};
+const Sweeps table = {ACSTUDY_ISA_NAME, lane_count, upwind_sweep, symmetric_sweep, banded_sweep, evaluate_series};
 
 }  // namespace ACSTUDY_ISA
 }  // namespace acstudy

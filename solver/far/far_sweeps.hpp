@@ -32,7 +32,7 @@ const FarSweeps& far_sweeps();
 
 /// True if there is a far form for the kernel and it is the faster one at a mean of `neighbors` on a side.
 ///
-/// The crossover is measured, by bench/far_benchmark.cpp.
+/// The crossover is measured, by bench/sweep_benchmark.cpp.
 bool far_pays(SweepKernel::Form upwind_kernel, double neighbors);
 
 /// How many particles a range should have at least: filling its first window takes as long as to sum a quarter as many.

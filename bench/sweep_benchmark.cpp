@@ -1,0 +1,169 @@
+/// @file
+/// Pair rates and seconds per particle of the sweeps: direct and far form of Model I, Model II, and the banded product
+/// of particles that stand still.
+///
+///     build/bench/acstudy_sweep_benchmark
+///
+/// Both divergence forms at once, velocities of the paper, particles moved by its flow up to t = 1/2.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "solver/far/far_sweeps.hpp"
+#include "solver/particles.hpp"
+#include "solver/vector/sweeps.hpp"
+
+namespace {
+
+using namespace acstudy;
+
+constexpr double period = 2.0 * std::numbers::pi;
+
+/// What sweeps are given, and the arrays behind it.
+struct Swept {
+  Swept(std::ptrdiff_t N, double delta)
+      : x(N),
+        c_hat(N),
+        c(N),
+        b(N),
+        b_prime(N),
+        u(N),
+        flux(N),
+        half_cosine(N),
+        half_sine(N),
+        cosine(N),
+        local_rate(N + 8),
+        nonlocal_rate(N + 8) {
+    for (std::ptrdiff_t j = 0; j < N; ++j) {
+      const double x_0 = static_cast<double>(j) * period / static_cast<double>(N);
+      x[j] = 2.0 * std::atan2(std::sin(0.5 * x_0) * std::exp(0.5), std::cos(0.5 * x_0));
+      b[j] = std::sin(x[j]);
+      b_prime[j] = std::cos(x[j]);
+      c[j] = std::cos(2.0 * x[j]) / 3.0;
+      c_hat[j] = c[j] - b[j];
+      u[j] = std::cos(x[j]);
+      flux[j] = c_hat[j] * u[j];
+      half_cosine[j] = std::cos(0.5 * x[j]);
+      half_sine[j] = std::sin(0.5 * x[j]);
+      cosine[j] = std::cos(x[j]);
+    }
+    x.wrap(N / 2, period);
+    for (PeriodicArray* each : {&c_hat, &c, &b, &b_prime, &u, &flux, &cosine}) each->wrap(N / 2);
+    for (PeriodicArray* each : {&half_cosine, &half_sine}) each->wrap_alternating(N / 2);
+    range = {x.at(0), delta, delta * (1.0 + horizon_tie_tolerance), 0, N};
+    upwind = {.kernel = {SweepKernel::Form::inverse},
+              .c_hat = c_hat.at(0),
+              .b_prime = b_prime.at(0),
+              .c = c.at(0),
+              .b = b.at(0),
+              .local = {u.at(0), flux.at(0), local_rate.data()},
+              .nonlocal = {u.at(0), flux.at(0), nonlocal_rate.data()}};
+  }
+
+  /// Model II with the same particles: c_hat = cos(2 x)/3 - sin(x), b = sin(x).
+  SymmetricSweep symmetric(bool with_nonlocal) {
+    SymmetricSweep sweep{.kernel = {SweepKernel::Form::cubic_spline},
+                         .mu = 4.0 / 3.0,
+                         .x = x.at(0),
+                         .panels = {},
+                         .modes = 2,
+                         .b_modes = 1,
+                         .half_cosine = {half_cosine.at(0), cosine.at(0), x.at(0), x.at(0)},
+                         .half_sine = {half_sine.at(0), b.at(0), x.at(0), x.at(0)},
+                         .c_hat = {0.0, {0.0, 1.0 / 3.0}, {-1.0, 0.0}},
+                         .b = {0.0, {0.0, 0.0}, {1.0, 0.0}},
+                         .b_prime = b_prime.at(0),
+                         .local = {u.at(0), nullptr, local_rate.data()},
+                         .nonlocal = {}};
+    if (with_nonlocal) sweep.nonlocal = {u.at(0), nullptr, nonlocal_rate.data()};
+    return sweep;
+  }
+
+  PeriodicArray x, c_hat, c, b, b_prime, u, flux, half_cosine, half_sine, cosine;
+  std::vector<double> local_rate, nonlocal_rate;
+  SweepRange range;
+  UpwindSweep upwind;
+};
+
+template <class Sweep>
+void measure(benchmark::State& state, double delta, Sweep sweep) {
+  Swept swept(state.range(0), delta);
+  for (auto _ : state) benchmark::DoNotOptimize(sweep(swept));
+  const double particles = static_cast<double>(state.range(0));
+  using benchmark::Counter;
+  state.counters["per_particle"] = Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["neighbors"] = delta / period * particles;
+}
+
+void direct(benchmark::State& state, double delta) {
+  measure(state, delta, [](Swept& swept) { return sweeps().upwind(swept.range, swept.upwind); });
+}
+void far_form(benchmark::State& state, double delta) {
+  far::Memory memory;
+  measure(state, delta,
+          [&memory](Swept& swept) { return far::far_sweeps().upwind(swept.range, swept.upwind, memory); });
+}
+
+/// Pairs per second, each counted once for each scheme whose rate it goes into.
+template <class Sweep>
+void pair_rate(benchmark::State& state, int schemes, Sweep sweep) {
+  Swept swept(state.range(0), 0.2);
+  double pairs = 0.0;
+  for (auto _ : state) pairs += static_cast<double>(schemes * sweep(swept));
+  state.counters["pairs"] = benchmark::Counter(pairs, benchmark::Counter::kIsRate);
+}
+
+void pairs_upwind(benchmark::State& state, SweepKernel::Form form, bool both) {
+  pair_rate(state, both ? 2 : 1, [=](Swept& swept) {
+    UpwindSweep sweep = swept.upwind;
+    sweep.kernel.form = form;
+    if (!both) sweep.nonlocal = {};
+    return sweeps().upwind(swept.range, sweep);
+  });
+}
+void pairs_symmetric(benchmark::State& state, bool both) {
+  pair_rate(state, both ? 2 : 1, [=](Swept& swept) { return sweeps().symmetric(swept.range, swept.symmetric(both)); });
+}
+
+/// Rows of as many entries each as range(1).
+void pairs_banded(benchmark::State& state) {
+  const std::ptrdiff_t N = state.range(0), width = state.range(1);
+  RateMatrix R;
+  for (std::ptrdiff_t j = 0; j < N; ++j) {
+    for (std::ptrdiff_t k = 0; k < width; ++k) R.add(j - k, N, 1.0 / static_cast<double>(k + 1));
+    R.end_row();
+  }
+  const BandedMatrix banded(R, sweeps().lanes);
+  PeriodicArray u(static_cast<std::size_t>(N));
+  for (std::ptrdiff_t j = 0; j < N; ++j) u[j] = std::cos(static_cast<double>(j));
+  u.wrap(banded.reach);
+  std::vector<double> rate(N + 8);
+  double pairs = 0.0;
+  for (auto _ : state) {
+    sweeps().banded(banded.blocks.data(), banded.value.data(), u.at(0), rate.data(), 0, std::ssize(banded.blocks));
+    benchmark::DoNotOptimize(rate.data());
+    pairs += static_cast<double>(N * width);
+  }
+  state.counters["pairs"] = benchmark::Counter(pairs, benchmark::Counter::kIsRate);
+}
+
+BENCHMARK_CAPTURE(pairs_upwind, inverse, SweepKernel::Form::inverse, false)->Arg(2560)->Arg(20480);
+BENCHMARK_CAPTURE(pairs_upwind, inverse_both, SweepKernel::Form::inverse, true)->Arg(2560)->Arg(20480);
+BENCHMARK_CAPTURE(pairs_upwind, spline, SweepKernel::Form::cubic_spline, false)->Arg(2560)->Arg(20480);
+BENCHMARK_CAPTURE(pairs_symmetric, spline, false)->Arg(2560)->Arg(20480);
+BENCHMARK_CAPTURE(pairs_symmetric, spline_both, true)->Arg(2560)->Arg(20480);
+BENCHMARK(pairs_banded)->Args({1280, 42})->Args({20480, 42})->Args({20480, 653});
+
+constexpr double fixed_horizon = 0.2;
+BENCHMARK_CAPTURE(direct, upwind, fixed_horizon)->RangeMultiplier(2)->Range(640, 81920)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(far_form, upwind, fixed_horizon)
+    ->RangeMultiplier(2)
+    ->Range(640, 81920)
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

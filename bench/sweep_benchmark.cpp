@@ -107,10 +107,12 @@ void far_form(benchmark::State& state, double delta) {
           [&memory](Swept& swept) { return far::far_sweeps().upwind(swept.range, swept.upwind, memory); });
 }
 
-/// Pairs per second, each counted once for each scheme whose rate it goes into.
+/// Pairs per second, each counted once for each scheme whose rate it goes into. range(1) is the horizon in spacings; 0
+/// stands for delta = 0.2.
 template <class Sweep>
 void pair_rate(benchmark::State& state, int schemes, Sweep sweep) {
-  Swept swept(state.range(0), 0.2);
+  const double spacings = static_cast<double>(state.range(1));
+  Swept swept(state.range(0), spacings == 0.0 ? 0.2 : spacings * period / static_cast<double>(state.range(0)));
   double pairs = 0.0;
   for (auto _ : state) pairs += static_cast<double>(schemes * sweep(swept));
   state.counters["pairs"] = benchmark::Counter(pairs, benchmark::Counter::kIsRate);
@@ -150,11 +152,11 @@ void pairs_banded(benchmark::State& state) {
   state.counters["pairs"] = benchmark::Counter(pairs, benchmark::Counter::kIsRate);
 }
 
-BENCHMARK_CAPTURE(pairs_upwind, inverse, SweepKernel::Form::inverse, false)->Arg(2560)->Arg(20480);
-BENCHMARK_CAPTURE(pairs_upwind, inverse_both, SweepKernel::Form::inverse, true)->Arg(2560)->Arg(20480);
-BENCHMARK_CAPTURE(pairs_upwind, spline, SweepKernel::Form::cubic_spline, false)->Arg(2560)->Arg(20480);
-BENCHMARK_CAPTURE(pairs_symmetric, spline, false)->Arg(2560)->Arg(20480);
-BENCHMARK_CAPTURE(pairs_symmetric, spline_both, true)->Arg(2560)->Arg(20480);
+BENCHMARK_CAPTURE(pairs_upwind, inverse, SweepKernel::Form::inverse, false)->ArgsProduct({{2560, 20480}, {0, 4}});
+BENCHMARK_CAPTURE(pairs_upwind, inverse_both, SweepKernel::Form::inverse, true)->ArgsProduct({{2560, 20480}, {0, 4}});
+BENCHMARK_CAPTURE(pairs_upwind, spline, SweepKernel::Form::cubic_spline, false)->ArgsProduct({{2560, 20480}, {0, 4}});
+BENCHMARK_CAPTURE(pairs_symmetric, spline, false)->ArgsProduct({{2560, 20480}, {0, 4}});
+BENCHMARK_CAPTURE(pairs_symmetric, spline_both, true)->ArgsProduct({{2560, 20480}, {0, 4}});
 BENCHMARK(pairs_banded)->Args({1280, 42})->Args({20480, 42})->Args({20480, 653});
 
 constexpr double fixed_horizon = 0.2;

@@ -7,11 +7,15 @@
 
 namespace acstudy {
 
+double inside_horizon(double delta, double first, double last, double period) {
+  // Beyond some 1e5 particles a tie is lost to the round-off of the positions themselves.
+  const double largest = std::max(std::abs(first), std::abs(last) + period);
+  return delta * (1.0 + horizon_tie_tolerance) + 4.0 * std::numeric_limits<double>::epsilon() * largest;
+}
+
 void find_windows(std::span<const double> x, double period, double delta, Windows& windows) {
   const std::ptrdiff_t n = std::ssize(x);
-  // Beyond some 1e5 particles a tie is lost to the round-off of the positions themselves.
-  const double largest = std::max(std::abs(x.front()), std::abs(x.back()) + period);
-  const double inside = delta * (1.0 + horizon_tie_tolerance) + 4.0 * std::numeric_limits<double>::epsilon() * largest;
+  const double inside = inside_horizon(delta, x.front(), x.back(), period);
   windows.left.resize(x.size());
   windows.right.resize(x.size());
   windows.widest = 1;

@@ -69,6 +69,9 @@ struct Windows {
 /// A neighbor at exactly the horizon is inside; round-off in a position must not decide.
 inline constexpr double horizon_tie_tolerance = 1e-11;
 
+/// The largest distance at which a neighbor is inside, for particles from `first` to `last` within one period.
+double inside_horizon(double delta, double first, double last, double period);
+
 /// Windows of sorted particles by two pointers, O(N).
 ///
 /// The left windows are read off the right ones, so that i sees j exactly when j sees i, ties included.

@@ -64,9 +64,7 @@ class SchemeInMotion {
         result_(result),
         particles_(static_cast<std::size_t>(c.N), c.scene->period(), c.delta),
         f_(particles_.size()),
-        step_(c.step),
-        T_(c.scene->T()),
-        looks_ahead_(c.integrator->stages.size() > 1 && !c.scene->standing()),
+        bound_(c.step.bound),
         watched_(!c.integrator->implicit()),
         lemma_bound_(c.lemma_bound(1.0)) {
     place(0.0);
@@ -90,19 +88,13 @@ class SchemeInMotion {
     solver_.solve(u.values());
   }
 
-  /// The largest step that the study's step rule allows from t on: by the particles at t and, where later stages see
-  /// them moved, by those at the end of the step too.
-  double largest_step(double t) {
-    const double now = step_.safety * bound(t);
-    return looks_ahead_ ? std::min(now, step_.safety * bound(std::min(t + now, T_))) : now;
+  /// The bound of the case's step rule at the particles of time t.
+  double bound(double t) {
+    move(t);
+    return bound_ == StepRule::Bound::rows ? 1.0 / scheme_.strongest_decay() : lemma_bound_ * smallest_gap().width;
   }
 
  private:
-  double bound(double t) {
-    move(t);
-    return step_.bound == StepRule::Bound::rows ? 1.0 / scheme_.strongest_decay() : lemma_bound_ * smallest_gap().width;
-  }
-
   struct Gap {
     double width, place;
   };
@@ -147,9 +139,7 @@ class SchemeInMotion {
   CaseResult& result_;
   Particles particles_;
   std::vector<double> f_;
-  StepRule step_;
-  double T_;
-  bool looks_ahead_;
+  StepRule::Bound bound_;
   bool watched_;        ///< implicit steps are bounded by no lemma
   double lemma_bound_;  ///< for a smallest gap of 1
   Gap gap_ = {};
@@ -174,9 +164,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   BoundWatch watch;
   const auto keep_going = [&](std::int64_t n, TimeStep step) {
     watch.step(n, step);
-    result.dt = std::max(result.dt, step.dt);
-    result.dt_smallest = n == 1 ? step.dt : std::min(result.dt_smallest, step.dt);
-    result.steps = n;
+    count_step(result, n, step);
     t = step.end;
     const auto exact_size = [&] {
       std::vector<double> exact(count);
@@ -193,7 +181,8 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
     if (c.step.bound == StepRule::Bound::none) {
       run(EqualSteps(scene.T(), c.steps));
     } else {
-      run(BoundedSteps(scene.T(), [&](double now) { return system.largest_step(now); }));
+      run(BoundedSteps(scene.T(),
+                       [&](double now) { return largest_step(c, now, [&](double at) { return system.bound(at); }); }));
     }
   } catch (const std::domain_error& error) {
     growth.restore(u.values());

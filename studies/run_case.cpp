@@ -7,7 +7,7 @@
 
 #include "studies/advance.hpp"
 #include "studies/control_choice.hpp"
-#include "studies/ensemble.hpp"
+#include "studies/ensemble/ensemble.hpp"
 
 namespace acstudy {
 
@@ -42,14 +42,22 @@ CaseResult run_readable(const Case& c, const std::atomic<bool>& stop) {
 }
 
 std::vector<CaseResult> run_together(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop) {
+  std::string failure;
   try {
     if (cases.size() > 1 || runs_in_vector_form(*cases.front())) return run_ensemble(cases, threads, stop);
     return {run_readable(*cases.front(), stop)};
   } catch (const std::domain_error& error) {
-    return std::vector<CaseResult>(cases.size(), failed(error.what()));
+    failure = error.what();
   } catch (const std::runtime_error& error) {
-    return std::vector<CaseResult>(cases.size(), failed(error.what()));
+    failure = error.what();
   }
+  if (cases.size() == 1) return {failed(failure)};
+  // One of them failed; it must not take the others along.
+  std::vector<CaseResult> results;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    results.push_back(run_together(cases.subspan(i, 1), threads, stop).front());
+  }
+  return results;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include <thread>
 #include <unordered_map>
 
-#include "studies/ensemble.hpp"
+#include "studies/ensemble/ensemble.hpp"
 
 namespace acstudy {
 

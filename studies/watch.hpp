@@ -16,6 +16,23 @@
 
 namespace acstudy {
 
+/// The largest step that the step rule of a case allows from t on: by the particles at t and, where later stages see
+/// them moved, by those at the end of the step too.
+/// @param bound  bound(t): the rule's bound at the particles of time t
+template <class Bound>
+double largest_step(const Case& c, double t, Bound&& bound) {
+  const double now = c.step.safety * bound(t);
+  const bool looks_ahead = c.integrator->stages.size() > 1 && !c.scene->standing();
+  return looks_ahead ? std::min(now, c.step.safety * bound(std::min(t + now, c.scene->T()))) : now;
+}
+
+/// Takes a step into account.
+inline void count_step(CaseResult& result, std::int64_t n, TimeStep step) {
+  result.dt = std::max(result.dt, step.dt);
+  result.dt_smallest = n == 1 ? step.dt : std::min(result.dt_smallest, step.dt);
+  result.steps = n;
+}
+
 /// Compares explicit steps with the bound of their lemma at the particles of each stage.
 class BoundWatch {
  public:

@@ -10,12 +10,12 @@
 #include "mms/trigonometric.hpp"
 #include "solver/particles.hpp"
 #include "solver/vector/sweeps.hpp"
-#include "studies/team.hpp"
-#include "studies/velocity_panels.hpp"
+#include "studies/ensemble/team.hpp"
+#include "studies/ensemble/velocity_panels.hpp"
 
 namespace acstudy {
 
-/// The velocities of a scene as short trigonometric series, where they are such.
+/// The velocities of a scene as short trigonometric series, where they are such; those of b where particles move.
 struct VelocitySeries {
   std::optional<TrigonometricSeries> c, b, b_prime;
   explicit VelocitySeries(const Scene& scene);
@@ -28,7 +28,7 @@ struct MidpointModes {
   SweepField c_hat, b;
 };
 /// None where the velocities are no series of few enough modes.
-std::optional<MidpointModes> midpoint_modes(const Scene& scene);
+std::optional<MidpointModes> midpoint_modes(const VelocitySeries& velocity);
 
 /// An upper bound of the distance from the middle of a vector of particles to their midpoints with neighbors, with some
 /// room for gaps that grow.
@@ -40,7 +40,7 @@ struct Needs {
   bool b_prime = false;     ///< (local divergence)
   bool midpoints = false;   ///< (Model II)
   bool phases = false;      ///< (sources that are series)
-  double inside = 0.0;      ///< the largest distance at which neighbors are seen
+  double delta = 0.0;       ///< the largest horizon
 };
 
 class SharedParticles {
@@ -49,23 +49,21 @@ class SharedParticles {
   SharedParticles(const Scene& scene, std::vector<double> start, Needs needs, Team& team);
 
   /// Takes the particles to time t and computes what is needed there; nothing if they are there already.
-  /// @return whether they were not
   /// @throws std::domain_error if particles have crossed, or the flow cannot be integrated
-  bool move(double t);
+  void move(double t);
   /// Positions at time t, for a look at the solution.
   std::span<const double> positions(double t);
 
   std::size_t size() const { return x.size(); }
   const Scene& scene() const { return scene_; }
   HalfPhases phases() const { return {half_cosine_.values(), half_sine_.values()}; }
-  /// The smallest gap now, and where it begins.
-  struct Gap {
-    double width, place;
-  };
   double smallest_gap() const { return smallest_gap_; }
+  /// Where it begins.
   double place_of_smallest_gap() const;
-  /// How far ghosts have to reach for sums with neighbors up to `inside`, at most as far as was said to be needed.
-  std::ptrdiff_t reach(double inside) const;
+  /// The largest distance at which a neighbor is inside.
+  double inside(double delta) const { return inside_horizon(delta, x[0], x[std::ssize(x) - 1], scene_.period()); }
+  /// How far ghosts have to reach for sums at a horizon of at most the one that was said to be needed.
+  std::ptrdiff_t reach(double delta) const;
   std::int64_t times_moved() const { return times_moved_; }
 
   // with ghosts

@@ -1,4 +1,4 @@
-#include "studies/ensemble.hpp"
+#include "studies/ensemble/ensemble.hpp"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include "mms/source_series.hpp"
 #include "solver/integrators.hpp"
 #include "solver/vector/clones.hpp"
+#include "studies/ensemble/shared_particles.hpp"
+#include "studies/ensemble/sweep_group.hpp"
 #include "studies/operator.hpp"
 #include "studies/outcome.hpp"
 #include "studies/scheme.hpp"
-#include "studies/shared_particles.hpp"
 #include "studies/stopwatch.hpp"
-#include "studies/sweep_group.hpp"
 #include "studies/watch.hpp"
 
 namespace acstudy {
@@ -36,8 +36,9 @@ double panel_reach(const Case& c) {
 bool runs_in_vector_form(const Case& c) {
   if (c.readable) return false;
   if (c.integrator->implicit() || !c.scheme.control.empty() || c.step.bound == StepRule::Bound::rows) return false;
-  return c.scheme.model == 1 || c.scene->standing() || midpoint_modes(*c.scene) ||
-         VelocityPanels::find(*c.scene, panel_reach(c));
+  if (c.scene->standing() || c.scheme.model == 1) return true;
+  return c.scheme.model == 2 &&
+         (midpoint_modes(VelocitySeries(*c.scene)) || VelocityPanels::find(*c.scene, panel_reach(c)));
 }
 
 std::string ensemble_key(const Case& c) {
@@ -144,7 +145,9 @@ class Ensemble {
         if (first_.step.bound == StepRule::Bound::none) {
           go(EqualSteps(scene_.T(), first_.steps));
         } else {
-          go(BoundedSteps(scene_.T(), [&](double now) { return largest_step(now); }));
+          go(BoundedSteps(scene_.T(), [&](double now) {
+            return largest_step(first_, now, [&](double t) { return lemma_bound(t); });
+          }));
         }
       } catch (const std::domain_error& error) {
         for (Member& m : members_) {
@@ -184,7 +187,7 @@ class Ensemble {
       needs.phases |= m.source->is_series();
       // The side of a source is that of c_hat.
       needs.velocities |= c->scheme.model == 1 && m.source->is_series() && c->nonlocal_source;
-      needs.inside = std::max(needs.inside, inside_of(c->delta, scene_.period()));
+      needs.delta = std::max(needs.delta, c->delta);
     }
     particles_.emplace(scene_, start_positions(first_.start, count, scene_.period()), needs, team_);
     particles_->move(0.0);
@@ -282,9 +285,7 @@ class Ensemble {
     for (Member& m : members_) {
       if (!m.running) continue;
       m.bound.step(n, step);
-      m.result.dt = std::max(m.result.dt, step.dt);
-      m.result.dt_smallest = n == 1 ? step.dt : std::min(m.result.dt_smallest, step.dt);
-      m.result.steps = n;
+      count_step(m.result, n, step);
       m.t = step.end;
       const auto exact_size = [&] {
         std::vector<double> exact(particles_->size());
@@ -298,15 +299,10 @@ class Ensemble {
     return any && !stop_.load(std::memory_order_relaxed);
   }
 
-  /// As SchemeInMotion::largest_step, for steps by the lemma.
-  double largest_step(double t) {
-    const auto at = [&](double time) {
-      particles_->move(time);
-      return first_.step.safety * members_.front().lemma_bound * particles_->smallest_gap();
-    };
-    const double now = at(t);
-    const bool looks_ahead = first_.integrator->stages.size() > 1 && !scene_.standing();
-    return looks_ahead ? std::min(now, at(std::min(t + now, scene_.T()))) : now;
+  /// The bound of the lemma, the same for all cases, at the particles of time t.
+  double lemma_bound(double t) {
+    particles_->move(t);
+    return members_.front().lemma_bound * particles_->smallest_gap();
   }
 
   void share_time(Member& m, double seconds) {

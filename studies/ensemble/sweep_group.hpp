@@ -8,7 +8,7 @@
 
 #include "solver/vector/sweeps.hpp"
 #include "solver/velocity.hpp"
-#include "studies/shared_particles.hpp"
+#include "studies/ensemble/shared_particles.hpp"
 #include "studies/study.hpp"
 
 namespace acstudy {
@@ -52,15 +52,12 @@ class SweepGroup {
   const SharedParticles& particles_;
   std::unique_ptr<Kernel> kernel_;
   int model_;
-  double delta_, inside_, mu_;
+  double delta_, mu_;
   std::string kernel_label_;
   SweptValues *local_ = nullptr, *nonlocal_ = nullptr;
   std::unique_ptr<BandedMatrix> standing_;  ///< where particles stand still
   std::int64_t standing_pairs_ = 0;
   WorkCounts work_;
 };
-
-/// Which neighbors are inside at a horizon, ties included, for particles within a period.
-double inside_of(double delta, double period);
 
 }  // namespace acstudy

@@ -1,4 +1,4 @@
-#include "studies/velocity_panels.hpp"
+#include "studies/ensemble/velocity_panels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "studies/sweep_group.hpp"
+#include "studies/ensemble/sweep_group.hpp"
 
 #include <atomic>
 #include <variant>
@@ -37,16 +37,11 @@ struct SweepGroup::Kernel {
   }
 };
 
-double inside_of(double delta, double period) {
-  return delta * (1.0 + horizon_tie_tolerance) + 4.0 * std::numeric_limits<double>::epsilon() * period;
-}
-
 SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
     : particles_(particles),
       kernel_(std::make_unique<Kernel>(c.scheme.kernel)),
       model_(c.scheme.model),
       delta_(c.delta),
-      inside_(inside_of(c.delta, c.scene->period())),
       mu_(c.mu),
       kernel_label_(c.scheme.kernel.label()) {
   if (!c.scene->standing()) return;
@@ -98,7 +93,7 @@ void SweepGroup::sweep_standing(Team& team) {
 }
 
 void SweepGroup::sweep_moving(Team& team) {
-  const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(inside_), lanes = sweeps().lanes;
+  const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(delta_), lanes = sweeps().lanes;
   const auto scheme = [&](SweptValues* values) {
     SweepScheme swept;
     if (values == nullptr) return swept;
@@ -116,7 +111,7 @@ void SweepGroup::sweep_moving(Team& team) {
   };
   const auto begin_of = [](const PeriodicArray& field) { return field.size() > 0 ? field.at(0) : nullptr; };
   const SweepScheme local = scheme(local_), nonlocal = scheme(nonlocal_);
-  SweepRange whole{particles_.x.at(0), delta_, inside_, 0, count};
+  SweepRange whole{particles_.x.at(0), delta_, particles_.inside(delta_), 0, count};
   std::atomic<std::int64_t> pairs{0};
   const auto each_range = [&](std::ptrdiff_t grain, auto run) {
     team.each(count, grain, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {

@@ -1,8 +1,7 @@
-#include "studies/shared_particles.hpp"
+#include "studies/ensemble/shared_particles.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include "solver/vector/clones.hpp"
@@ -57,12 +56,9 @@ VelocitySeries::VelocitySeries(const Scene& scene) {
   b_prime = series([&](auto x, auto out) { scene.b_prime(x, out); });
 }
 
-std::optional<MidpointModes> midpoint_modes(const Scene& scene) {
-  const VelocitySeries velocity(scene);
-  const TrigonometricSeries nothing;
-  const TrigonometricSeries& b = velocity.b ? *velocity.b : nothing;
-  if (!velocity.c || (!scene.standing() && !velocity.b)) return std::nullopt;
-  const TrigonometricSeries& c = *velocity.c;
+std::optional<MidpointModes> midpoint_modes(const VelocitySeries& velocity) {
+  if (!velocity.c || !velocity.b) return std::nullopt;
+  const TrigonometricSeries &c = *velocity.c, &b = *velocity.b;
   MidpointModes modes;
   modes.c_hat.constant = c.constant - b.constant;
   modes.b.constant = b.constant;
@@ -97,7 +93,7 @@ SharedParticles::SharedParticles(const Scene& scene, std::vector<double> start, 
   if (!scene.standing()) trajectories_.emplace(scene, start_);
   const std::size_t count = start_.size();
   if (needs.midpoints) {
-    modes = midpoint_modes(scene);
+    modes = midpoint_modes(series_);
     if (modes) mode_cosine.assign(modes->number.size(), PeriodicArray(count));
     mode_sine = mode_cosine;
   }
@@ -117,8 +113,8 @@ std::span<const double> SharedParticles::positions(double t) {
   return trajectories_ ? trajectories_->at(t) : std::span<const double>(start_);
 }
 
-bool SharedParticles::move(double t) {
-  if (t == t_ || (t_ >= 0.0 && !trajectories_)) return false;
+void SharedParticles::move(double t) {
+  if (t == t_ || (t_ >= 0.0 && !trajectories_)) return;
   const bool each_alone = trajectories_ && trajectories_->closed_form() && t != 0.0;
   timed(positions_seconds, [&] {
     if (each_alone) {
@@ -144,7 +140,6 @@ bool SharedParticles::move(double t) {
   });
   t_ = t;
   ++times_moved_;
-  return true;
 }
 
 void SharedParticles::fill(std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -174,14 +169,14 @@ void SharedParticles::wrap_positions() {
   // As far as the windows reached so far; if they have grown, twice as far.
   for (;; wrapped_ = std::min(2 * wrapped_, x.margin())) {
     x.wrap(wrapped_, scene_.period());
-    if (wrapped_ == x.margin() || reach(needs_.inside) < wrapped_) return;
+    if (wrapped_ == x.margin() || reach(needs_.delta) < wrapped_) return;
   }
 }
 
 void SharedParticles::fit_panels() {
   double largest = 0.0;
   for (std::ptrdiff_t j = 0; j < std::ssize(x); ++j) largest = std::max(largest, x[j + 1] - x[j]);
-  const double reach = midpoint_reach(needs_.inside, largest);
+  const double reach = midpoint_reach(needs_.delta, largest);
   if (panels && reach <= 1.25 * panels->reach()) return;
   panels = VelocityPanels::find(scene_, reach);
   if (!panels) {
@@ -191,7 +186,7 @@ void SharedParticles::fit_panels() {
 }
 
 void SharedParticles::wrap_fields() {
-  const std::ptrdiff_t reach = this->reach(needs_.inside), lanes = sweeps().lanes;
+  const std::ptrdiff_t reach = this->reach(needs_.delta), lanes = sweeps().lanes;
   if (needs_.velocities) {
     b.wrap(reach);
     // What a particle needs of itself alone is read up to the end of a vector.
@@ -212,7 +207,8 @@ double SharedParticles::place_of_smallest_gap() const {
   return x[j];
 }
 
-std::ptrdiff_t SharedParticles::reach(double inside) const {
+std::ptrdiff_t SharedParticles::reach(double delta) const {
+  const double inside = this->inside(delta);
   // A vector of particles may begin at the last one, and every walk looks at one neighbor beyond its window.
   const std::ptrdiff_t n = std::ssize(x), last = n + sweeps().lanes;
   std::ptrdiff_t right = last, left = 0;

@@ -1,4 +1,4 @@
-#include "studies/team.hpp"
+#include "studies/ensemble/team.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -248,8 +248,8 @@ def _draw_along_threads(panel, pairs, styles, inches):
         panel.plot(threads, per_step[0][0] / threads, **SLOPE)
         # Two that begin at nearly the same height would write over each other.
         crowded = any(abs(math.log(per_step[0][0] / y[0])) < 0.2 for _, y in every)
-        panel.annotate(f"{names.path_math(path)}, $N={N}$", (threads[0], per_step[0][0]), xytext=(7, 17 if crowded else 4),
-                       textcoords="offset points", fontsize=9)
+        panel.annotate(f"{names.path_math(path)}, $N={N}$", (threads[0], per_step[0][0]),
+                       xytext=(7, 17 if crowded else 4), textcoords="offset points", fontsize=9)
         every += [(threads, per_step[0]), (threads, per_step[0][0] / threads)]
     panel.set_title("threads within one case", fontsize=11)
     panel.set_xlabel("threads")

@@ -158,8 +158,8 @@ def cost_drawing(studies, styles):
         "cost", "Error against run time", figure,
         "Log-log plot of the max-norm error against the run time of every scheme, a panel per path. "
         "Values: tables above.",
-        "Run time of the whole time loop: median of the repeats, bars from the fastest to the slowest. Comparable only "
-        "between runs of one machine. Series run by several studies are drawn once.")
+        "Run time of the whole time loop, or a case's share of it where several advance on the same particles: median of "
+        "the repeats, bars from the fastest to the slowest. Comparable only between runs of one machine. Series run by several studies are drawn once.")
 
 
 def cost_curves(studies):

@@ -48,7 +48,9 @@ def html(studies, drawings, cost=None, seeded=None, compared=None, timed=False):
                     f"{markup.figure(cost)}{TIMED if timed else UNTIMED}</section>\n")
     body.append(comparison.section(compared))
     body.append(mutants.section(seeded))
-    links = [("claims.html", "claim by claim"), *([(bench_page.FILE, "error against run time")] if timed else []), *((f"#{study.name}", study.name) for study in studies)]
+    links = [("claims.html", "claim by claim")]
+    links += [(bench_page.FILE, "error against run time")] if timed else []
+    links += [(f"#{study.name}", study.name) for study in studies]
     links += [("#run-time", "run time")] if cost else []
     links.append(("#comparison", "other programs"))
     links.append(("#seeded-mistakes", "seeded mistakes"))

@@ -55,7 +55,7 @@ class Cases:
     steps: np.ndarray
     variable: np.ndarray        # value of the theory's variable
     error_linf: np.ndarray
-    seconds: np.ndarray         # whole time loop, median over repeats
+    seconds: np.ndarray         # time loop, or the case's share of it; median over repeats
     seconds_low: np.ndarray
     seconds_high: np.ndarray
     repeats: np.ndarray

@@ -107,6 +107,28 @@ void far_form(benchmark::State& state, double delta) {
           [&memory](Swept& swept) { return far::far_sweeps().upwind(swept.range, swept.upwind, memory); });
 }
 
+void direct_spline(benchmark::State& state, double delta) {
+  measure(state, delta, [](Swept& swept) {
+    swept.upwind.kernel.form = SweepKernel::Form::cubic_spline;
+    return sweeps().upwind(swept.range, swept.upwind);
+  });
+}
+void far_spline(benchmark::State& state, double delta) {
+  far::Memory memory;
+  measure(state, delta, [&memory](Swept& swept) {
+    swept.upwind.kernel.form = SweepKernel::Form::cubic_spline;
+    return far::far_sweeps().upwind(swept.range, swept.upwind, memory);
+  });
+}
+void direct_symmetric(benchmark::State& state, double delta) {
+  measure(state, delta, [](Swept& swept) { return sweeps().symmetric(swept.range, swept.symmetric(true)); });
+}
+void far_symmetric(benchmark::State& state, double delta) {
+  far::Memory memory;
+  measure(state, delta,
+          [&memory](Swept& swept) { return far::far_sweeps().symmetric(swept.range, swept.symmetric(true), memory); });
+}
+
 /// Pairs per second, each counted once for each scheme whose rate it goes into. range(1) is the horizon in spacings; 0
 /// stands for delta = 0.2.
 template <class Sweep>
@@ -164,6 +186,23 @@ BENCHMARK_CAPTURE(direct, upwind, fixed_horizon)->RangeMultiplier(2)->Range(640,
 BENCHMARK_CAPTURE(far_form, upwind, fixed_horizon)
     ->RangeMultiplier(2)
     ->Range(640, 81920)
+    ->Unit(benchmark::kMicrosecond);
+
+BENCHMARK_CAPTURE(direct_spline, upwind, fixed_horizon)
+    ->RangeMultiplier(2)
+    ->Range(2560, 81920)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(far_spline, upwind, fixed_horizon)
+    ->RangeMultiplier(2)
+    ->Range(2560, 81920)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(direct_symmetric, symmetric, fixed_horizon)
+    ->RangeMultiplier(2)
+    ->Range(2560, 81920)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(far_symmetric, symmetric, fixed_horizon)
+    ->RangeMultiplier(2)
+    ->Range(2560, 81920)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

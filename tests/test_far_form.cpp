@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
+#include "solver/far/box_tables.hpp"
 #include "solver/far/exponential_sum.hpp"
 #include "solver/far/far_sweeps.hpp"
-#include "solver/far/moving_moments.hpp"
 #include "tests/catch.hpp"
 #include "tests/far_harness.hpp"
 
@@ -16,23 +18,23 @@ namespace {
 
 constexpr double period = 2.0 * std::numbers::pi;
 
-/// Rates of Model I with the inverse kernel, ranges cut at `cuts`.
-BothRates far_upwind(SweptParticles& swept, std::vector<std::ptrdiff_t> cuts = {}) {
+/// A sweep of the far form on all particles, ranges cut at `cuts`. @return pairs
+template <class Run>
+std::int64_t far_sweep(const SweptParticles& swept, std::vector<std::ptrdiff_t> cuts, Run run) {
   far::Memory memory;
-  const UpwindSweep sweep = swept.upwind(SweepKernel::Form::inverse);
   cuts.push_back(swept.range.end);
   SweepRange range = swept.range;
-  std::int64_t pairs = 0, seen = 0;
+  std::int64_t pairs = 0;
   for (const std::ptrdiff_t cut : cuts) {
     range.end = cut;
-    pairs += far::far_sweeps().upwind(range, sweep, memory);
+    pairs += run(range, memory);
     range.begin = cut;
   }
-  for (std::size_t j = 0; j < swept.local_u.size(); ++j) {
-    const auto& windows = swept.particles.windows;
-    seen += (swept.c_hat[static_cast<std::ptrdiff_t>(j)] > 0.0 ? windows.left : windows.right)[j];
-  }
-  CHECK(pairs == seen);
+  return pairs;
+}
+
+/// The rates, having seen that none was written beyond the particles.
+BothRates rates_of(const SweptParticles& swept) {
   BothRates rates = swept.rates;
   for (auto* each : {&rates.local, &rates.nonlocal}) {
     CHECK(std::all_of(each->begin() + swept.range.end, each->end(), [](double rate) { return std::isnan(rate); }));
@@ -41,42 +43,44 @@ BothRates far_upwind(SweptParticles& swept, std::vector<std::ptrdiff_t> cuts = {
   return rates;
 }
 
-/// max_j |sum_i q_i/(x_j - x_i)| of the moments beside the same in long double, relative to the sum of positive
-/// charges, where charges are at a distance from `nearest` up to a window of `neighbors` of them.
-double moments_error(const far::ExponentialSum& sum, int neighbors) {
-  const int count = 4 * neighbors / far::panel_size * far::panel_size;
-  const double nearest = neighbors / sum.ratio;
-  const std::vector<double> q = irregular_values(static_cast<std::size_t>(count), 3);
-  std::vector<double> x(q.size());
-  for (int i = 0; i < count; ++i) x[i] = i + 0.3 * q[(i * 7) % count];
-  far::Scratch scratch;
-  const std::ptrdiff_t panels = neighbors / far::panel_size + 2;
-  far::MovingMoments<2> moments(sum, nearest, panels, scratch.reserve(far::MovingMoments<2>::memory(panels, sum)));
-  int front = 0, back = 0;
-  double largest = 0.0;
-  for (int j = 0; j < count; j += far::panel_size) {
-    for (; front + far::panel_size <= j && x[j] - x[front + far::panel_size - 1] >= nearest; front += far::panel_size) {
-      double charge[2 * far::panel_size];
-      for (int i = 0; i < far::panel_size; ++i) {
-        charge[i] = 1.0;
-        charge[far::panel_size + i] = q[front + i];
-      }
-      moments.push(x.data() + front, charge);
-    }
-    for (; back < front && x[j] - x[back] > neighbors; back += far::panel_size) moments.pop();
-    if (moments.empty()) continue;
-    Lanes sums[2] = {};
-    moments.add(x[j], spread(x[j]), sums);
-    long double direct[2] = {};
-    for (int i = back; i < front; ++i) {
-      direct[0] += 1.0L / (static_cast<long double>(x[j]) - x[i]);
-      direct[1] += q[i] / (static_cast<long double>(x[j]) - x[i]);
-    }
-    for (int c : {0, 1}) {
-      largest = std::max(largest, static_cast<double>(std::abs(sums[c][0] - direct[c]) / direct[0]));
-    }
+BothRates far_upwind(SweptParticles& swept, SweepKernel::Form kernel, const std::vector<std::ptrdiff_t>& cuts = {}) {
+  const UpwindSweep sweep = swept.upwind(kernel);
+  const std::int64_t pairs = far_sweep(swept, cuts, [&](const SweepRange& range, far::Memory& memory) {
+    return far::far_sweeps().upwind(range, sweep, memory);
+  });
+  std::int64_t seen = 0;
+  for (std::size_t j = 0; j < swept.local_u.size(); ++j) {
+    const auto& windows = swept.particles.windows;
+    seen += (swept.c_hat[static_cast<std::ptrdiff_t>(j)] > 0.0 ? windows.left : windows.right)[j];
   }
-  return largest;
+  CHECK(pairs == seen);
+  return rates_of(swept);
+}
+
+constexpr double mu = 2.5;
+
+BothRates far_symmetric(SweptParticles& swept, int modes, const std::vector<std::ptrdiff_t>& cuts = {}) {
+  const SymmetricSweep sweep = swept.symmetric(mu, modes);
+  const std::int64_t pairs = far_sweep(swept, cuts, [&](const SweepRange& range, far::Memory& memory) {
+    return far::far_sweeps().symmetric(range, sweep, memory);
+  });
+  const auto& [left, right, widest] = swept.particles.windows;
+  CHECK(pairs == std::reduce(left.begin(), left.end()) + std::reduce(right.begin(), right.end()));
+  return rates_of(swept);
+}
+
+void check_close(const BothRates& rates, const BothRates& expected, double tolerance) {
+  CHECK(relative_gap(rates.local, expected.local) <= tolerance);
+  CHECK(relative_gap(rates.nonlocal, expected.nonlocal) <= tolerance);
+}
+
+/// All far sweeps against the readable form.
+void check_far_sweeps(SweptParticles& swept) {
+  using Form = SweepKernel::Form;
+  check_close(far_upwind(swept, Form::inverse), readable_upwind(swept, InverseKernel{}), 1e-12);
+  check_close(far_upwind(swept, Form::cubic_spline), readable_upwind(swept, CubicSplineKernel{}), 1e-12);
+  const BothRates expected = readable_symmetric(swept, mu);
+  for (const int modes : {2, 3}) check_close(far_symmetric(swept, modes), expected, 1e-12);
 }
 
 }  // namespace
@@ -105,35 +109,77 @@ TEST_CASE("The reciprocal is a sum of exponentials to round-off, by rates that a
   CHECK_THROWS_AS(far::reciprocal_sum(far::max_log2_ratio + 1), std::invalid_argument);
 }
 
-TEST_CASE("Moving moments sum charges over distance, and a shorter sum of exponentials does not", "[far]") {
-  for (const int log2_ratio : {1, 3, 6, 8}) {
-    CAPTURE(log2_ratio);
-    const far::ExponentialSum& sum = far::reciprocal_sum(log2_ratio);
-    const int neighbors = 40 << log2_ratio;
-    CHECK(moments_error(sum, neighbors) <= 2e-14);
-    CHECK(moments_error(far::reciprocal_sum(log2_ratio, sum.count / 2), neighbors) > 1e-12);
+TEST_CASE("Boxes that are one box apart see each other's particles to round-off, and with fewer terms do not",
+          "[far]") {
+  // Relative error of 1/s between any two points of boxes with `first` to `last` boxes between them.
+  const auto error = [](const far::BoxExpansion& e, int first, int last, int terms) {
+    double largest = 0.0;
+    for (int between = first; between <= last; ++between) {
+      for (double tau = -1.0; tau <= 1.0; tau += 0.125) {
+        for (double t = -1.0; t <= 1.0; t += 0.125) {
+          const double s = between + 0.5 * (1.0 - tau) + 0.5 * (1.0 + t);
+          long double value = 0.0L;
+          for (int m = 0; m < e.count; ++m) {
+            long double in = 0.0L, out = 0.0L;
+            for (int n = terms - 1; n >= 0; --n) {
+              in = in * tau + e.in[n][m];
+              out = out * t + e.out[m][n];
+            }
+            value += in * out * std::exp(-static_cast<long double>(e.rate[m]) * between);
+          }
+          largest = std::max(largest, static_cast<double>(std::abs(s * value - 1.0L)));
+        }
+      }
+    }
+    return largest;
+  };
+  constexpr double per_box = 16.0;
+  CHECK(far::box_tables(7.9 * per_box, per_box) == nullptr);
+  for (const int boxes : {8, 24, 256}) {
+    CAPTURE(boxes);
+    const far::BoxTables* const tables = far::box_tables(boxes * per_box, per_box);
+    REQUIRE(tables != nullptr);
+    REQUIRE(tables->boxes == boxes);
+    CHECK(error(tables->whole, 1, boxes - 2, far::expansion_terms) <= 5e-15);
+    CHECK(error(tables->near, 1, boxes / 2 - 2, far::expansion_terms) <= 5e-15);
+    CHECK(error(tables->far, boxes / 2, boxes - 2, far::expansion_terms) <= 5e-15);
+    CHECK(error(tables->whole, 1, boxes - 2, far::expansion_terms - 4) > 1e-12);
   }
 }
 
-TEST_CASE("The far form of Model I has the readable form's rates", "[far]") {
+TEST_CASE("The far form has the readable form's rates and pairs", "[far]") {
   struct Sample {
     std::size_t N;
     double neighbors, spread;
   };
   unsigned seed = 0;
   for (const auto& [N, neighbors, spread] :
-       {Sample{5, 1.7, 5.0}, Sample{97, 0.3, 5.0}, Sample{97, 40.0, 5.0}, Sample{400, 90.0, 5.0},
-        Sample{403, 190.0, 1000.0}, Sample{1201, 300.0, 1.01}, Sample{1603, 790.0, 50.0}, Sample{5400, 2600.0, 5.0}}) {
+       {Sample{5, 1.7, 5.0}, Sample{97, 0.3, 5.0}, Sample{97, 40.0, 5.0}, Sample{603, 290.0, 5.0},
+        Sample{703, 310.0, 1000.0}, Sample{1201, 300.0, 1.01}, Sample{1603, 790.0, 50.0}, Sample{5400, 2600.0, 5.0}}) {
     for (const double shift : {0.0, 2.1}) {
       CAPTURE(N, neighbors, spread, shift);
       seed += 3;
       const double delta = neighbors * period / static_cast<double>(N);
       SweptParticles swept(irregular_positions(N, period, seed, spread), period, delta,
                            translated(uneven_velocity(), shift), seed + 1);
-      const BothRates far = far_upwind(swept), readable = readable_upwind(swept, InverseKernel{});
-      CHECK(relative_gap(far.local, readable.local) <= 1e-12);
-      CHECK(relative_gap(far.nonlocal, readable.nonlocal) <= 1e-12);
+      check_far_sweeps(swept);
     }
+  }
+}
+
+TEST_CASE("The far form has the readable form's rates on clusters with gaps beyond the horizon between them", "[far]") {
+  for (const double delta : {0.03, 0.2, 1.1}) {
+    CAPTURE(delta);
+    // Clusters 0.02 wide, some of single particles, at distances that grow from less than a box to many horizons.
+    std::vector<double> x;
+    double at = 0.0;
+    for (int cluster = 0; cluster < 16; ++cluster) {
+      const int size = cluster % 5 == 4 ? 1 : 60 + 10 * cluster;
+      for (int i = 0; i < size; ++i) x.push_back(at + 0.02 * i / size);
+      at += 0.02 + 0.04 * cluster;
+    }
+    SweptParticles swept(x, period, delta, uneven_velocity(), 31);
+    check_far_sweeps(swept);
   }
 }
 
@@ -142,22 +188,27 @@ TEST_CASE("A neighbor at the horizon counts in the far form as it does in the re
     CAPTURE(neighbors);
     constexpr std::size_t N = 1024;
     SweptParticles swept(uniform_positions(N, period), period, neighbors * period / N, uneven_velocity(), 5);
-    const BothRates far = far_upwind(swept), readable = readable_upwind(swept, InverseKernel{});
-    CHECK(relative_gap(far.local, readable.local) <= 1e-12);
-    CHECK(relative_gap(far.nonlocal, readable.nonlocal) <= 1e-12);
+    check_far_sweeps(swept);
   }
 }
 
 TEST_CASE("Ranges of the far form write what is theirs, wherever they are cut", "[far]") {
   constexpr std::size_t N = 1500;
   const auto x = irregular_positions(N, period, 8);
-  SweptParticles whole(x, period, 0.13 * period, uneven_velocity(), 9);
-  const BothRates expected = far_upwind(whole);
-  for (const auto& cuts : {std::vector<std::ptrdiff_t>{750}, {1, 2, 40, 1499}, {333, 341, 1100}}) {
-    SweptParticles cut(x, period, 0.13 * period, uneven_velocity(), 9);
-    const BothRates rates = far_upwind(cut, cuts), again = far_upwind(cut, cuts);
-    CHECK(relative_gap(rates.local, expected.local) <= 1e-13);
-    CHECK(relative_gap(rates.nonlocal, expected.nonlocal) <= 1e-13);
-    CHECK(rates.local == again.local);
+  const auto swept = [&] { return SweptParticles(x, period, 0.18 * period, uneven_velocity(), 9); };
+  for (const auto& rates : {std::function([](SweptParticles&particles, const std::vector<std::ptrdiff_t>&cuts) {
+                              return far_upwind(particles, SweepKernel::Form::inverse, cuts);
+                            }),
+                            std::function([](SweptParticles&particles, const std::vector<std::ptrdiff_t>&cuts) {
+                              return far_symmetric(particles, 2, cuts);
+                            })}) {
+    SweptParticles whole = swept();
+    const BothRates expected = rates(whole, {});
+    for (const auto& cuts : {std::vector<std::ptrdiff_t>{750}, {1, 2, 40, 1499}, {333, 341, 1100}}) {
+      SweptParticles cut = swept();
+      const BothRates its = rates(cut, cuts), again = rates(cut, cuts);
+      check_close(its, expected, 1e-13);
+      CHECK(its.local == again.local);
+    }
   }
 }

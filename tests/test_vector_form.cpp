@@ -152,21 +152,36 @@ TEST_CASE("A neighbor at the horizon counts in the vector form as it does in the
 
 namespace {
 
-/// Model I with so many neighbors that it is swept in its far form.
-Case far_case(const std::shared_ptr<const Scene>& scene) {
+/// A case with so many neighbors that it is swept in its far form.
+Case far_case(const std::shared_ptr<const Scene>& scene, int model, const char* kernel) {
   constexpr std::size_t N = 4000;
-  const Case c = case_on(scene, 1, true, {"inverse"}, N, 0.1 * scene->period());
-  REQUIRE(far::far_pays(SweepKernel::Form::inverse, c.delta / c.h));
-  REQUIRE(far::range_size(static_cast<std::ptrdiff_t>(c.delta / c.h)) < c.N / 2);
+  const Case c = case_on(scene, model, true, {kernel}, N, 0.1 * scene->period());
+  const SweepKernel::Form form =
+      kernel == std::string("inverse") ? SweepKernel::Form::inverse : SweepKernel::Form::cubic_spline;
+  const double neighbors = c.delta / c.h;
+  if (model == 1) {
+    UpwindSweep sweep{};
+    sweep.kernel.form = form;
+    REQUIRE(far::far_pays(sweep, neighbors));
+  } else {
+    SymmetricSweep sweep{};
+    sweep.kernel.form = form;
+    REQUIRE(far::far_pays(sweep, neighbors));
+  }
+  REQUIRE(far::range_size(static_cast<std::ptrdiff_t>(neighbors)) < c.N / 2);
   return c;
+}
+std::vector<Case> far_cases(const std::shared_ptr<const Scene>& scene) {
+  return {far_case(scene, 1, "inverse"), far_case(scene, 1, "cubic-spline"), far_case(scene, 2, "cubic-spline")};
 }
 
 }  // namespace
 
 TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
   const auto scene = random_scene(5);
-  for (const Case& c : {case_on(scene, 1, false, {"cubic-spline"}, 1000, 0.1),
-                        case_on(scene, 2, false, {"cubic-spline"}, 1000, 0.1), far_case(scene)}) {
+  std::vector<Case> cases = far_cases(scene);
+  for (const int model : {1, 2}) cases.push_back(case_on(scene, model, false, {"cubic-spline"}, 1000, 0.1));
+  for (const Case& c : cases) {
     const auto N = static_cast<std::size_t>(c.N);
     const auto x = irregular_positions(N, scene->period(), 3);
     const auto u = irregular_values(N, 4);
@@ -181,13 +196,15 @@ TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
 
 TEST_CASE("With many neighbors, too, swept rates and pairs are those of the readable form", "[vector]") {
   const auto scene = random_scene(6);
-  const Case c = far_case(scene);
-  const auto N = static_cast<std::size_t>(c.N);
-  const auto x = irregular_positions(N, scene->period(), 3);
-  const auto u = irregular_values(N, 4);
-  const Swept expected = readable_rates(c, x, u), swept = swept_rates(c, x, u, true);
-  CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
-  CHECK(swept.pairs == expected.pairs);
+  for (const Case& c : far_cases(scene)) {
+    CAPTURE(c.key());
+    const auto N = static_cast<std::size_t>(c.N);
+    const auto x = irregular_positions(N, scene->period(), 3);
+    const auto u = irregular_values(N, 4);
+    const Swept expected = readable_rates(c, x, u), swept = swept_rates(c, x, u, true);
+    CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+    CHECK(swept.pairs == expected.pairs);
+  }
 }
 
 namespace {

@@ -34,16 +34,21 @@ const FarSweeps& far_sweeps() {
   return chosen;
 }
 
-bool far_pays(SweepKernel::Form upwind_kernel, double neighbors) {
-  return upwind_kernel == SweepKernel::Form::inverse && neighbors >= 256.0;
+bool far_pays(const UpwindSweep& sweep, double neighbors) {
+  switch (sweep.kernel.form) {
+    case SweepKernel::Form::inverse:
+      return neighbors >= 192.0;
+    case SweepKernel::Form::cubic_spline:
+      return neighbors >= 288.0;
+    default:
+      return false;
+  }
+}
+
+bool far_pays(const SymmetricSweep& sweep, double neighbors) {
+  return sweep.kernel.form == SweepKernel::Form::cubic_spline && sweep.panels.terms == 0 && neighbors >= 288.0;
 }
 
 std::ptrdiff_t range_size(std::ptrdiff_t neighbors) { return std::max<std::ptrdiff_t>(1024, 4 * neighbors); }
-
-int log2_ratio_for(std::ptrdiff_t neighbors) {
-  int log2_ratio = 0;
-  while (log2_ratio < max_log2_ratio && neighbors >= std::ptrdiff_t{48} << log2_ratio) ++log2_ratio;
-  return log2_ratio;
-}
 
 }  // namespace acstudy::far

@@ -13,7 +13,7 @@ namespace acstudy::far {
 
 /// What one thread keeps from sweep to sweep. A sweep uses it alone.
 struct Memory {
-  Scratch outermost, moments;
+  Scratch outermost, boxes, moments, rows, one_side;
 };
 
 /// The far form of the sweeps of one instruction set: the same arguments and results as those of Sweeps, to 1e-14 of
@@ -25,20 +25,20 @@ struct Memory {
 struct FarSweeps {
   const char* name;  ///< that of the Sweeps
   std::int64_t (*upwind)(const SweepRange&, const UpwindSweep&, Memory&);
+  std::int64_t (*symmetric)(const SweepRange&, const SymmetricSweep&, Memory&);
 };
 
 /// Those of the instruction set of sweeps().
 const FarSweeps& far_sweeps();
 
-/// True if there is a far form for the kernel and it is the faster one at a mean of `neighbors` on a side.
+/// True if the sweep has a far form and it is the faster one at a mean of `neighbors` on a side: kernels whose cell
+/// moments are polynomials, velocities of few modes.
 ///
 /// The crossover is measured, by bench/sweep_benchmark.cpp.
-bool far_pays(SweepKernel::Form upwind_kernel, double neighbors);
+bool far_pays(const UpwindSweep& sweep, double neighbors);
+bool far_pays(const SymmetricSweep& sweep, double neighbors);
 
 /// How many particles a range should have at least: filling its first window takes as long as to sum a quarter as many.
 std::ptrdiff_t range_size(std::ptrdiff_t neighbors);
-
-/// log2 of delta/nearest, for some 24 to 48 direct pairs on a side; 0: sum all of them directly.
-int log2_ratio_for(std::ptrdiff_t neighbors);
 
 }  // namespace acstudy::far

@@ -125,6 +125,17 @@ void SweepGroup::sweep_moving(Team& team) {
       }
     });
   };
+  const auto run = [&](const auto& sweep, auto direct, auto far) {
+    const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
+    if (far::far_pays(sweep, neighbors)) {
+      each_range(far::range_size(static_cast<std::ptrdiff_t>(neighbors)), [&](const SweepRange& range) {
+        thread_local far::Memory memory;
+        return far(range, sweep, memory);
+      });
+    } else {
+      each_range(64, [&](const SweepRange& range) { return direct(range, sweep); });
+    }
+  };
   if (model_ == 1) {
     const UpwindSweep sweep{kernel_->sweep,
                             begin_of(particles_.c_hat),
@@ -133,15 +144,7 @@ void SweepGroup::sweep_moving(Team& team) {
                             begin_of(particles_.b),
                             local,
                             nonlocal};
-    const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
-    if (far::far_pays(kernel_->sweep.form, neighbors)) {
-      each_range(far::range_size(static_cast<std::ptrdiff_t>(neighbors)), [&](const SweepRange& range) {
-        thread_local far::Memory memory;
-        return far::far_sweeps().upwind(range, sweep, memory);
-      });
-    } else {
-      each_range(64, [&](const SweepRange& range) { return sweeps().upwind(range, sweep); });
-    }
+    run(sweep, sweeps().upwind, far::far_sweeps().upwind);
   } else {
     const MidpointModes modes = particles_.modes.value_or(MidpointModes{});
     SymmetricSweep sweep{.kernel = kernel_->sweep,
@@ -162,7 +165,7 @@ void SweepGroup::sweep_moving(Team& team) {
       sweep.half_cosine[k] = k < sweep.modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
       sweep.half_sine[k] = k < sweep.modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
     }
-    each_range(64, [&](const SweepRange& range) { return sweeps().symmetric(range, sweep); });
+    run(sweep, sweeps().symmetric, far::far_sweeps().symmetric);
   }
   work_.pairs += pairs;
   ++work_.weight_builds;

@@ -1,0 +1,71 @@
+#include "solver/far/box_tables.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+
+namespace acstudy::far {
+
+namespace {
+
+/// Coefficients in powers of t of the polynomial through exp(-a (1 + t)) at Chebyshev points.
+std::array<double, expansion_terms> exponential_over_box(long double a) {
+  constexpr int n = expansion_terms;
+  const auto angle = [](int i) { return std::numbers::pi_v<long double> * (i + 0.5L) / n; };
+  std::array<long double, n> T_before{1.0L}, T{}, sum{};
+  T[1] = 1.0L;
+  for (int k = 0; k < n; ++k) {
+    long double of_T_k = 0.0L;
+    for (int i = 0; i < n; ++i) of_T_k += std::exp(-a * (1.0L + std::cos(angle(i)))) * std::cos(k * angle(i));
+    of_T_k *= (k == 0 ? 1.0L : 2.0L) / n;
+    for (int m = 0; m < n; ++m) sum[m] += of_T_k * T_before[m];
+    std::array<long double, n> T_next{};
+    for (int m = 0; m < n; ++m) T_next[m] = (m > 0 ? 2.0L * T[m - 1] : 0.0L) - T_before[m];
+    T_before = T;
+    T = T_next;
+  }
+  std::array<double, n> result;
+  for (int m = 0; m < n; ++m) result[m] = static_cast<double>(sum[m]);
+  return result;
+}
+
+/// @param nearest  the distance, in boxes, for which the sum of exponentials begins
+BoxExpansion expansion(const ExponentialSum& sum, double nearest) {
+  BoxExpansion e{};
+  e.count = sum.count;
+  e.padded = sum.padded;
+  for (int m = 0; m < sum.padded; ++m) {
+    e.rate[m] = sum.rate[m] / nearest;
+    const auto over_box = exponential_over_box(0.5L * e.rate[m]);
+    for (int n = 0; n < expansion_terms; ++n) {
+      e.in[n][m] = n % 2 == 0 ? over_box[n] : -over_box[n];
+      e.out[m][n] = sum.weight[m] / nearest * over_box[n];
+    }
+  }
+  return e;
+}
+
+int log2_at_least(int boxes) { return static_cast<int>(std::bit_width(static_cast<unsigned>(boxes - 1))); }
+
+}  // namespace
+
+const BoxTables* box_tables(double neighbors, double per_box) {
+  constexpr std::array boxes{8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
+  static std::array<std::unique_ptr<const BoxTables>, boxes.size()> tables;
+  static std::array<std::once_flag, boxes.size()> computed;
+  std::size_t k = 0;
+  while (k < boxes.size() && neighbors >= per_box * boxes[k]) ++k;
+  if (k-- == 0) return nullptr;
+  std::call_once(computed[k], [&] {
+    const int half = boxes[k] / 2;
+    tables[k] = std::make_unique<const BoxTables>(
+        BoxTables{boxes[k], expansion(reciprocal_sum(log2_at_least(boxes[k])), 1.0),
+                  expansion(reciprocal_sum(log2_at_least(half)), 1.0), expansion(reciprocal_sum(1), half)});
+  });
+  return tables[k].get();
+}
+
+}  // namespace acstudy::far

@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -88,45 +89,53 @@ struct Swept {
   UpwindSweep upwind;
 };
 
+/// Seconds per particle with the horizon 0.2.
 template <class Sweep>
-void measure(benchmark::State& state, double delta, Sweep sweep) {
+void per_particle(benchmark::State& state, Sweep sweep) {
+  constexpr double delta = 0.2;
   Swept swept(state.range(0), delta);
-  for (auto _ : state) benchmark::DoNotOptimize(sweep(swept));
+  far::Memory memory;
+  for (auto _ : state) benchmark::DoNotOptimize(sweep(swept, memory));
   const double particles = static_cast<double>(state.range(0));
   using benchmark::Counter;
   state.counters["per_particle"] = Counter(particles, Counter::kIsIterationInvariantRate | Counter::kInvert);
   state.counters["neighbors"] = delta / period * particles;
 }
 
-void direct(benchmark::State& state, double delta) {
-  measure(state, delta, [](Swept& swept) { return sweeps().upwind(swept.range, swept.upwind); });
-}
-void far_form(benchmark::State& state, double delta) {
-  far::Memory memory;
-  measure(state, delta,
-          [&memory](Swept& swept) { return far::far_sweeps().upwind(swept.range, swept.upwind, memory); });
+/// A far sweep, in ranges as the solver cuts them.
+template <class Far, class Sweep>
+std::int64_t in_ranges(Far far_sweep, SweepRange range, const Sweep& sweep, far::Memory& memory) {
+  const std::ptrdiff_t neighbors = std::lround(range.delta / period * static_cast<double>(range.end));
+  std::int64_t pairs = 0;
+  for (const std::ptrdiff_t end = range.end; range.begin < end; range.begin = range.end) {
+    range.end = std::min(range.begin + far::range_size(neighbors), end);
+    pairs += far_sweep(range, sweep, memory);
+  }
+  return pairs;
 }
 
-void direct_spline(benchmark::State& state, double delta) {
-  measure(state, delta, [](Swept& swept) {
-    swept.upwind.kernel.form = SweepKernel::Form::cubic_spline;
-    return sweeps().upwind(swept.range, swept.upwind);
+/// Both divergence forms of Model I, or the nonlocal one.
+void upwind(benchmark::State& state, SweepKernel::Form kernel, bool both, bool far_form) {
+  per_particle(state, [&](Swept& swept, far::Memory& memory) {
+    swept.upwind.kernel.form = kernel;
+    if (!both) swept.upwind.local = {};
+    return far_form ? in_ranges(far::far_sweeps().upwind, swept.range, swept.upwind, memory)
+                    : sweeps().upwind(swept.range, swept.upwind);
   });
 }
-void far_spline(benchmark::State& state, double delta) {
-  far::Memory memory;
-  measure(state, delta, [&memory](Swept& swept) {
-    swept.upwind.kernel.form = SweepKernel::Form::cubic_spline;
-    return far::far_sweeps().upwind(swept.range, swept.upwind, memory);
+
+/// Both divergence forms of Model II, or the local one.
+void symmetric(benchmark::State& state, bool both, bool far_form) {
+  per_particle(state, [&](Swept& swept, far::Memory& memory) {
+    const SymmetricSweep sweep = swept.symmetric(both);
+    return far_form ? in_ranges(far::far_sweeps().symmetric, swept.range, sweep, memory)
+                    : sweeps().symmetric(swept.range, sweep);
   });
 }
-void direct_symmetric(benchmark::State& state, double delta) {
-  measure(state, delta, [](Swept& swept) { return sweeps().symmetric(swept.range, swept.symmetric(true)); });
-}
-void far_symmetric(benchmark::State& state, double delta) {
-  far::Memory memory;
-  measure(state, delta,
-          [&memory](Swept& swept) { return far::far_sweeps().symmetric(swept.range, swept.symmetric(true), memory); });
+
+void resolutions(benchmark::internal::Benchmark* benchmark) {
+  for (int N = 1280; N <= 81920; N *= 2) benchmark->Arg(N);
+  benchmark->Unit(benchmark::kMicrosecond);
 }
 
 /// Pairs per second, each counted once for each scheme whose rate it goes into. range(1) is the horizon in spacings; 0
@@ -182,28 +191,18 @@ BENCHMARK_CAPTURE(pairs_symmetric, spline_both, true)->ArgsProduct({{2560, 20480
 BENCHMARK(pairs_banded)->Args({1280, 42})->Args({20480, 42})->Args({20480, 653});
 
 constexpr double fixed_horizon = 0.2;
-BENCHMARK_CAPTURE(direct, upwind, fixed_horizon)->RangeMultiplier(2)->Range(640, 81920)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(far_form, upwind, fixed_horizon)
-    ->RangeMultiplier(2)
-    ->Range(640, 81920)
-    ->Unit(benchmark::kMicrosecond);
-
-BENCHMARK_CAPTURE(direct_spline, upwind, fixed_horizon)
-    ->RangeMultiplier(2)
-    ->Range(2560, 81920)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(far_spline, upwind, fixed_horizon)
-    ->RangeMultiplier(2)
-    ->Range(2560, 81920)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(direct_symmetric, symmetric, fixed_horizon)
-    ->RangeMultiplier(2)
-    ->Range(2560, 81920)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(far_symmetric, symmetric, fixed_horizon)
-    ->RangeMultiplier(2)
-    ->Range(2560, 81920)
-    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(upwind, inverse_both_direct, SweepKernel::Form::inverse, true, false)->Apply(resolutions);
+BENCHMARK_CAPTURE(upwind, inverse_both_far, SweepKernel::Form::inverse, true, true)->Apply(resolutions);
+BENCHMARK_CAPTURE(upwind, inverse_direct, SweepKernel::Form::inverse, false, false)->Apply(resolutions);
+BENCHMARK_CAPTURE(upwind, inverse_far, SweepKernel::Form::inverse, false, true)->Apply(resolutions);
+BENCHMARK_CAPTURE(upwind, spline_both_direct, SweepKernel::Form::cubic_spline, true, false)->Apply(resolutions);
+BENCHMARK_CAPTURE(upwind, spline_both_far, SweepKernel::Form::cubic_spline, true, true)->Apply(resolutions);
+BENCHMARK_CAPTURE(upwind, spline_direct, SweepKernel::Form::cubic_spline, false, false)->Apply(resolutions);
+BENCHMARK_CAPTURE(upwind, spline_far, SweepKernel::Form::cubic_spline, false, true)->Apply(resolutions);
+BENCHMARK_CAPTURE(symmetric, spline_both_direct, true, false)->Apply(resolutions);
+BENCHMARK_CAPTURE(symmetric, spline_both_far, true, true)->Apply(resolutions);
+BENCHMARK_CAPTURE(symmetric, spline_direct, false, false)->Apply(resolutions);
+BENCHMARK_CAPTURE(symmetric, spline_far, false, true)->Apply(resolutions);
 
 }  // namespace
 

@@ -50,21 +50,11 @@ class ReciprocalWindow {
     }
   }
 
-  /// Lets the oldest box go.
-  ACSTUDY_ALWAYS_INLINE inline void pop() {
-    const double* const own = box(oldest_++);
-    if (oldest_ == newest_) {
-      for (double& moment : moments_) moment = 0.0;
-      return;
-    }
-    const auto behind = static_cast<double>(newest_ - oldest_);
-    for (int m = 0; m < e_.padded; m += lane_count) {
-      const Lanes decay = exponential(load(e_.rate + m) * -behind);
-      for (int c = 0; c < channels; ++c) {
-        double* const moment = moments_ + c * e_.padded + m;
-        store(moment, load(moment) - decay * load(own + c * e_.padded + m));
-      }
-    }
+  bool empty() const { return oldest_ == newest_; }
+
+  /// Lets those of its boxes go that entered before the one of this number, counted from 0.
+  ACSTUDY_ALWAYS_INLINE inline void drop_before(std::ptrdiff_t number) {
+    while (oldest_ < number && !empty()) pop();
   }
 
   /// local[c][n] += coefficients in t of the sums over a box that begins `gap` boxes after the end of the window.
@@ -88,6 +78,22 @@ class ReciprocalWindow {
   }
 
  private:
+  ACSTUDY_ALWAYS_INLINE inline void pop() {
+    const double* const own = box(oldest_++);
+    if (empty()) {
+      for (double& moment : moments_) moment = 0.0;
+      return;
+    }
+    const auto behind = static_cast<double>(newest_ - oldest_);
+    for (int m = 0; m < e_.padded; m += lane_count) {
+      const Lanes decay = exponential(load(e_.rate + m) * -behind);
+      for (int c = 0; c < channels; ++c) {
+        double* const moment = moments_ + c * e_.padded + m;
+        store(moment, load(moment) - decay * load(own + c * e_.padded + m));
+      }
+    }
+  }
+
   double* box(std::ptrdiff_t number) { return ring_ + number % boxes_ * channels * e_.padded; }
 
   const BoxExpansion& e_;

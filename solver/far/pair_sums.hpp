@@ -1,0 +1,212 @@
+#pragma once
+
+/// @file
+/// Sums over the neighbors on one side, pair by pair, for several particles at a time.
+
+#include <cstddef>
+
+#include "solver/far/cell_moments.hpp"
+#include "solver/far/order.hpp"
+#include "solver/vector/lanes.hpp"
+#include "solver/vector/sweeps.hpp"
+
+namespace acstudy::far {
+inline namespace ACSTUDY_ISA {
+
+/// What is summed over the cells m of a side, at distances z in horizons: (m/z) row[c] for the first `over` entries of
+/// the row of each neighbor, and m row[f] for the first `plain`.
+///
+/// @tparam per_box_  particles in a box that make the sums fastest, by measurement
+template <class Moment_, int over_, int plain_, int per_box_>
+struct Channels {
+  using Moment = Moment_;
+  static constexpr int per_box = per_box_;
+  static constexpr int over = over_, plain = plain_;
+  static constexpr bool two_pieces = Moment::breakpoint < 1.0;
+  /// Doubles from row to row.
+  static constexpr int stride = plain == 0 ? (over + 3) / 4 * 4 : (plain + 7) / 8 * 8;
+  /// Doubles beyond the last row that may be read.
+  static constexpr int margin = 8;
+};
+
+template <class C>
+struct ChannelSums {
+  Lanes over[C::over] = {};
+  Lanes plain[C::plain + 1] = {};
+  Lanes reach = {};  ///< distance of the outermost neighbor
+};
+
+/// Neighbors p that have been summed otherwise: m from outer_begin to outer_end and from inner_begin to near_end, m/z
+/// likewise but for those from near_begin on, of which charge[p]/z is missing.
+struct Summed {
+  std::ptrdiff_t outer_begin, outer_end, inner_begin, near_begin, near_end;
+  const double* charge;
+};
+
+template <int s, class C>
+class PairSums {
+ public:
+  using Moment = typename C::Moment;
+
+  /// @param rows       by index
+  /// @param outermost  neighbor p of each particle, by index
+  PairSums(const SweepRange& range, const double* rows, const double* outermost, std::ptrdiff_t start)
+      : order_{range.x},
+        rows_(rows),
+        outermost_(outermost),
+        delta_(range.delta),
+        per_delta_(1.0 / range.delta),
+        break_begin_(static_cast<std::ptrdiff_t>(outermost[s * start])),
+        break_end_(break_begin_) {}
+
+  /// Adds the neighbors of the vector that have not been summed otherwise. Vectors have to come in walking order.
+  ACSTUDY_ALWAYS_INLINE inline void add(const Vector<s>& vector, const Summed& summed, ChannelSums<C>& total) {
+    const std::ptrdiff_t last = vector.first + vector.count - 1,
+                         lowest = static_cast<std::ptrdiff_t>(outermost_[s * vector.first]),
+                         highest = static_cast<std::ptrdiff_t>(outermost_[s * last]);
+    const Some some{vector.x(order_), vector.p(), vector.read(outermost_)};
+    const Lanes x = some.x;
+    find_breakpoint(vector.first, last);
+    if (highest >= vector.first || break_end_ > vector.first) {
+      add_some<Piece::any>(some, lowest, last, total);
+      return;
+    }
+    ChannelSums<C> sums = total;
+    std::ptrdiff_t i = highest + 1;
+    const auto up_to = [&]<Piece piece>(std::ptrdiff_t to) ACSTUDY_ALWAYS_INLINE {
+      add_whole<piece>(x, i, to, sums);
+      if (to > i) i = to;
+    };
+    const auto skip_to = [&](std::ptrdiff_t to) ACSTUDY_ALWAYS_INLINE {
+      if (to > i) i = to;
+    };
+    if constexpr (C::two_pieces) {
+      if (i <= break_begin_) {
+        add_some<Piece::outside>(some, lowest, i, sums);
+      } else {
+        add_some<Piece::any>(some, lowest, i, sums);
+      }
+      if (summed.outer_begin < summed.outer_end) {
+        up_to.template operator()<Piece::outside>(summed.outer_begin);
+        skip_to(summed.outer_end);
+      }
+      up_to.template operator()<Piece::outside>(break_begin_);
+      up_to.template operator()<Piece::any>(break_end_ < summed.inner_begin ? break_end_ : summed.inner_begin);
+    } else {
+      add_some<Piece::any>(some, lowest, i, sums);
+    }
+    up_to.template operator()<Piece::inside>(summed.inner_begin);
+    skip_to(summed.near_begin);
+    if (i < summed.near_end) {
+      add_charges(x, summed.charge, i, summed.near_end, sums);
+      i = summed.near_end;
+    }
+    up_to.template operator()<Piece::inside>(vector.first);
+    add_each_others(some, vector.first, last, sums);
+    total = sums;
+  }
+
+ private:
+  /// Particles of which not all have the same neighbors.
+  struct Some {
+    Lanes x, p, outer;
+  };
+
+  const double* row(std::ptrdiff_t p) const { return rows_ + s * p * C::stride; }
+
+  ACSTUDY_ALWAYS_INLINE inline void add_cell(Lanes m, Lanes over, std::ptrdiff_t i, ChannelSums<C>& sums) const {
+    const double* const r = row(i);
+#pragma GCC unroll 32
+    for (int f = 0; f < C::plain; ++f) sums.plain[f] += m * r[f];
+#pragma GCC unroll 4
+    for (int c = 0; c < C::over; ++c) sums.over[c] += over * r[c];
+  }
+
+  /// Finds which cells may lie across the breakpoint for some of the particles first .. last: those of the neighbors
+  /// break_begin_ .. break_end_ - 1.
+  ACSTUDY_ALWAYS_INLINE inline void find_breakpoint(std::ptrdiff_t first, std::ptrdiff_t last) {
+    const double until = Moment::breakpoint * delta_;
+    while (order_.x(first) - order_.x(break_begin_ + 1) >= until) ++break_begin_;
+    while (order_.x(last) - order_.x(break_end_) > until) ++break_end_;
+  }
+
+  /// Neighbors first .. last - 1 of all particles, none of them the outermost, in cells within one piece.
+  template <Piece piece>
+  ACSTUDY_ALWAYS_INLINE inline void add_whole(Lanes x, std::ptrdiff_t first, std::ptrdiff_t last,
+                                              ChannelSums<C>& sums) const {
+    if (first >= last) return;
+    double x_i = order_.x(first);
+    CellLanes cell;
+    cell.outer = (x - x_i) * per_delta_;
+    if constexpr (C::two_pieces) cell.rest_outer = (delta_ - (x - x_i)) * per_delta_;
+    for (std::ptrdiff_t i = first; i < last; ++i) {
+      const double x_next = order_.x(i + 1);
+      cell.inner = (x - x_next) * per_delta_;
+      cell.width = spread((x_next - x_i) * per_delta_);
+      if constexpr (C::two_pieces) cell.rest_inner = (delta_ - (x - x_next)) * per_delta_;
+      const Lanes m = Moment::template of<piece>(cell);
+      add_cell(m, m / cell.outer, i, sums);
+      x_i = x_next;
+      cell.outer = cell.inner;
+      cell.rest_outer = cell.rest_inner;
+    }
+  }
+
+  /// charge/z of the neighbors first .. last - 1.
+  ACSTUDY_ALWAYS_INLINE inline void add_charges(Lanes x, const double* charge, std::ptrdiff_t first,
+                                                std::ptrdiff_t last, ChannelSums<C>& sums) const {
+    for (std::ptrdiff_t i = first; i < last; ++i) {
+      const Lanes over = (charge[i] * delta_) / (x - order_.x(i));
+#pragma GCC unroll 4
+      for (int c = 0; c < C::over; ++c) sums.over[c] += over * row(i)[c];
+    }
+  }
+
+  /// Neighbors first .. last - 1, the particles first .. last, which see each other.
+  ACSTUDY_ALWAYS_INLINE inline void add_each_others(const Some& some, std::ptrdiff_t first, std::ptrdiff_t last,
+                                                    ChannelSums<C>& sums) const {
+    for (std::ptrdiff_t i = first; i < last; ++i) {
+      const double x_i = order_.x(i), x_next = order_.x(i + 1);
+      const Mask seen = some.p > spread(static_cast<double>(i));
+      const Lanes zero = {};
+      CellLanes cell{};
+      cell.inner = (some.x - x_next) * per_delta_;
+      cell.outer = (some.x - x_i) * per_delta_;
+      cell.width = spread((x_next - x_i) * per_delta_);
+      const Lanes m = Moment::template of<Piece::inside>(cell);
+      add_cell(seen ? m : zero, seen ? m / cell.outer : zero, i, sums);
+    }
+  }
+
+  /// Neighbors first .. last - 1 of some of the particles. Some may be the outermost of a particle, whose cell reaches
+  /// to the horizon.
+  template <Piece piece>
+  ACSTUDY_ALWAYS_INLINE inline void add_some(const Some& some, std::ptrdiff_t first, std::ptrdiff_t last,
+                                             ChannelSums<C>& sums) const {
+    const auto& [x, p, outer] = some;
+    for (std::ptrdiff_t i = first; i < last; ++i) {
+      const Lanes p_i = spread(static_cast<double>(i));
+      const double x_i = order_.x(i), x_next = order_.x(i + 1);
+      const Mask seen = (outer <= p_i) & (p > p_i), is_outermost = outer == p_i;
+      const Lanes zero = {}, one = spread(1.0), distance = x - x_i;
+      CellLanes cell;
+      cell.inner = (x - x_next) * per_delta_;
+      cell.rest_inner = max((delta_ - (x - x_next)) * per_delta_, zero);
+      cell.outer = is_outermost ? one : min(distance * per_delta_, one);
+      cell.rest_outer = is_outermost ? zero : max((delta_ - distance) * per_delta_, zero);
+      cell.width = is_outermost ? cell.rest_inner : min(spread((x_next - x_i) * per_delta_), cell.rest_inner);
+      const Lanes z = distance * per_delta_, m = Moment::template of<piece>(cell);
+      add_cell(seen ? m : zero, seen ? m / z : zero, i, sums);
+      sums.reach = is_outermost ? distance : sums.reach;
+    }
+  }
+
+  Order<s> order_;
+  const double* rows_;
+  const double* outermost_;
+  double delta_, per_delta_;
+  std::ptrdiff_t break_begin_, break_end_;
+};
+
+}  // namespace ACSTUDY_ISA
+}  // namespace acstudy::far

@@ -3,6 +3,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <vector>
 
 #include "solver/far/box_tables.hpp"
@@ -168,18 +169,23 @@ TEST_CASE("The far form has the readable form's rates and pairs", "[far]") {
 }
 
 TEST_CASE("The far form has the readable form's rates on clusters with gaps beyond the horizon between them", "[far]") {
-  for (const double delta : {0.03, 0.2, 1.1}) {
-    CAPTURE(delta);
-    // Clusters 0.02 wide, some of single particles, at distances that grow from less than a box to many horizons.
-    std::vector<double> x;
-    double at = 0.0;
-    for (int cluster = 0; cluster < 16; ++cluster) {
-      const int size = cluster % 5 == 4 ? 1 : 60 + 10 * cluster;
-      for (int i = 0; i < size; ++i) x.push_back(at + 0.02 * i / size);
-      at += 0.02 + 0.04 * cluster;
+  std::mt19937 generator(11);
+  for (int sample = 0; sample < 6; ++sample) {
+    // Clusters of 1 to 300 particles, in gaps over three orders of magnitude.
+    std::vector<double> x{0.0};
+    for (int cluster = 0; cluster < 12; ++cluster) {
+      const int size = cluster % 4 == 3 ? 1 : std::uniform_int_distribution(20, 300)(generator);
+      const double gap = std::pow(10.0, std::uniform_real_distribution(-5.0, -3.0)(generator));
+      for (int i = 0; i < size; ++i) x.push_back(x.back() + gap * (1.0 + 0.3 * (i % 3)));
+      x.push_back(x.back() + std::pow(10.0, std::uniform_real_distribution(-3.0, 0.0)(generator)));
     }
-    SweptParticles swept(x, period, delta, uneven_velocity(), 31);
-    check_far_sweeps(swept);
+    const double scale = period / (x.back() + 0.05);
+    for (double& position : x) position *= scale;
+    for (const double delta : {0.03, 0.2, 0.5, 1.1, 2.9}) {
+      CAPTURE(sample, delta);
+      SweptParticles swept(x, period, delta, uneven_velocity(), 31);
+      check_far_sweeps(swept);
+    }
   }
 }
 

@@ -36,8 +36,9 @@ struct ChannelSums {
   Lanes reach = {};  ///< distance of the outermost neighbor
 };
 
-/// Neighbors p that have been summed otherwise: m from outer_begin to outer_end and from inner_begin to near_end, m/z
-/// likewise but for those from near_begin on, of which charge[p]/z is missing.
+/// Neighbors p that have been summed otherwise, with whole cells: m from outer_begin to outer_end and from inner_begin
+/// to near_end, m/z likewise but for those from near_begin on, of which charge[p]/z is missing. The first of them may
+/// be the outermost of some particles, or beyond.
 struct Summed {
   std::ptrdiff_t outer_begin, outer_end, inner_begin, near_begin, near_end;
   const double* charge;
@@ -68,7 +69,7 @@ class PairSums {
     const Lanes x = some.x;
     find_breakpoint(vector.first, last);
     if (highest >= vector.first || break_end_ > vector.first) {
-      add_some<Piece::any>(some, lowest, last, total);
+      add_some<Piece::any, Piece::any>(some, lowest, last, last, total);
       return;
     }
     ChannelSums<C> sums = total;
@@ -80,20 +81,25 @@ class PairSums {
     const auto skip_to = [&](std::ptrdiff_t to) ACSTUDY_ALWAYS_INLINE {
       if (to > i) i = to;
     };
+    const bool has_outer = summed.outer_begin < summed.outer_end;
+    const std::ptrdiff_t begin = has_outer                              ? summed.outer_begin
+                                 : summed.inner_begin < summed.near_end ? summed.inner_begin
+                                                                        : i;
+    const std::ptrdiff_t first = begin < lowest ? begin : lowest, edge = begin < i ? begin : i;
+    if (i <= break_begin_) {
+      add_some<Piece::outside, Piece::outside>(some, first, edge, i, sums);
+    } else if (has_outer) {
+      add_some<Piece::any, Piece::outside>(some, first, edge, i, sums);
+    } else {
+      add_some<Piece::any, Piece::inside>(some, first, edge, i, sums);
+    }
     if constexpr (C::two_pieces) {
-      if (i <= break_begin_) {
-        add_some<Piece::outside>(some, lowest, i, sums);
-      } else {
-        add_some<Piece::any>(some, lowest, i, sums);
-      }
-      if (summed.outer_begin < summed.outer_end) {
+      if (has_outer) {
         up_to.template operator()<Piece::outside>(summed.outer_begin);
         skip_to(summed.outer_end);
       }
-      up_to.template operator()<Piece::outside>(break_begin_);
+      up_to.template operator()<Piece::outside>(break_begin_ < summed.inner_begin ? break_begin_ : summed.inner_begin);
       up_to.template operator()<Piece::any>(break_end_ < summed.inner_begin ? break_end_ : summed.inner_begin);
-    } else {
-      add_some<Piece::any>(some, lowest, i, sums);
     }
     up_to.template operator()<Piece::inside>(summed.inner_begin);
     skip_to(summed.near_begin);
@@ -179,24 +185,33 @@ class PairSums {
   }
 
   /// Neighbors first .. last - 1 of some of the particles. Some may be the outermost of a particle, whose cell reaches
-  /// to the horizon.
-  template <Piece piece>
-  ACSTUDY_ALWAYS_INLINE inline void add_some(const Some& some, std::ptrdiff_t first, std::ptrdiff_t last,
-                                             ChannelSums<C>& sums) const {
+  /// to the horizon. Those from `summed` on have been summed as whole cells, within piece `whole`.
+  template <Piece piece, Piece whole>
+  ACSTUDY_ALWAYS_INLINE inline void add_some(const Some& some, std::ptrdiff_t first, std::ptrdiff_t summed,
+                                             std::ptrdiff_t last, ChannelSums<C>& sums) const {
     const auto& [x, p, outer] = some;
     for (std::ptrdiff_t i = first; i < last; ++i) {
       const Lanes p_i = spread(static_cast<double>(i));
       const double x_i = order_.x(i), x_next = order_.x(i + 1);
       const Mask seen = (outer <= p_i) & (p > p_i), is_outermost = outer == p_i;
-      const Lanes zero = {}, one = spread(1.0), distance = x - x_i;
+      const Lanes zero = {}, one = spread(1.0), distance = x - x_i, z = distance * per_delta_;
+      const CellLanes uncut{(x - x_next) * per_delta_, z, spread((x_next - x_i) * per_delta_),
+                            (delta_ - (x - x_next)) * per_delta_, (delta_ - distance) * per_delta_};
       CellLanes cell;
-      cell.inner = (x - x_next) * per_delta_;
-      cell.rest_inner = max((delta_ - (x - x_next)) * per_delta_, zero);
-      cell.outer = is_outermost ? one : min(distance * per_delta_, one);
-      cell.rest_outer = is_outermost ? zero : max((delta_ - distance) * per_delta_, zero);
-      cell.width = is_outermost ? cell.rest_inner : min(spread((x_next - x_i) * per_delta_), cell.rest_inner);
-      const Lanes z = distance * per_delta_, m = Moment::template of<piece>(cell);
-      add_cell(seen ? m : zero, seen ? m / z : zero, i, sums);
+      cell.inner = uncut.inner;
+      cell.rest_inner = max(uncut.rest_inner, zero);
+      cell.outer = is_outermost ? one : min(z, one);
+      cell.rest_outer = is_outermost ? zero : max(uncut.rest_outer, zero);
+      cell.width = is_outermost ? cell.rest_inner : min(uncut.width, cell.rest_inner);
+      Lanes m = Moment::template of<piece>(cell);
+      m = seen ? m : zero;
+      Lanes over = seen ? m / z : zero;
+      if (i >= summed) {
+        const Lanes m_whole = Moment::template of<whole>(uncut);
+        m -= m_whole;
+        over -= m_whole / z;
+      }
+      add_cell(m, over, i, sums);
       sums.reach = is_outermost ? distance : sums.reach;
     }
   }

@@ -168,13 +168,20 @@ class SideSums {
     // Boxes from -below on; first_in(b) is the first particle at or beyond the left edge of box b.
     const std::ptrdiff_t below = K + 2, above = static_cast<std::ptrdiff_t>((order_.x(stop - 1) - origin) / width) + 2;
     double* const firsts = memory_.boxes.reserve(below + above + 1) + below;
-    std::ptrdiff_t q = outermost(start);
+    const std::ptrdiff_t lowest = outermost(start);
+    std::ptrdiff_t q = lowest;
     for (std::ptrdiff_t b = -below; b <= above; ++b) {
       const double edge = origin + width * static_cast<double>(b);
       while (q < stop && order_.x(q) < edge) ++q;
       firsts[b] = static_cast<double>(q);
     }
     const auto first_in = [=](std::ptrdiff_t b) { return static_cast<std::ptrdiff_t>(firsts[b]); };
+    // Outer boxes hold the cells that end in them, whose particle may stand a little further out: so that none reaches
+    // across the breakpoint from the box before it.
+    const auto first_cell_in = [=, this](std::ptrdiff_t b) {
+      const std::ptrdiff_t p = first_in(b);
+      return p > lowest && order_.x(p - 1) >= origin + width * (static_cast<double>(b) - 0.1) ? p - 1 : p;
+    };
     const auto center = [=](std::ptrdiff_t b) { return origin + width * (static_cast<double>(b) + 0.5); };
 
     const BoxExpansion& inner_expansion = C::two_pieces ? tables.near : tables.whole;
@@ -189,7 +196,7 @@ class SideSums {
     const auto ring_of = [=](std::ptrdiff_t part, std::ptrdiff_t b) {
       return reinterpret_cast<Polynomials*>(memory + (part * ring + (b + below) % ring) * polynomials_size);
     };
-    double* const charge = memory_.charges.reserve(stop - outermost(start)) - outermost(start);
+    double* const charge = memory_.charges.reserve(stop - lowest) - lowest;
     PairSums<s, C> direct(range_, rows_, outermost_, start);
     Polynomials sum;
     sum.clear();
@@ -211,24 +218,33 @@ class SideSums {
                                next_to, own);
         sum.add(own, 2.0 * static_cast<double>(B - inner_end), 1.0);
       }
-      for (; inner_begin < inner_end &&
-             (inner_begin < B + 1 - (C::two_pieces ? K / 2 : K + 1) || first_in(inner_begin) <= highest);
+      // Only of the window that reaches to the horizon may a particle's outermost neighbor be part, and only of boxes
+      // that are summed in full.
+      const bool may_hold_outermost = !C::two_pieces && highest < first_in(B - 1);
+      for (; inner_begin < inner_end && (inner_begin < B + 1 - (C::two_pieces ? K / 2 : K) ||
+                                         (!may_hold_outermost && first_in(inner_begin) <= highest));
            ++inner_begin) {
         sum.add(*ring_of(0, inner_begin), 2.0 * static_cast<double>(B - inner_begin), -1.0);
       }
       inner.drop_before(inner_begin - first_inner);
       if constexpr (C::two_pieces) {
-        for (; first_in(outer_end + 1) < first_in(B - K / 2); ++outer_end) {
+        const auto drop_outer = [&]() ACSTUDY_ALWAYS_INLINE {
+          for (; outer_begin < outer_end && (outer_begin < B + 1 - K || highest >= first_cell_in(outer_end));
+               ++outer_begin) {
+            sum.add(*ring_of(1, outer_begin), 2.0 * static_cast<double>(B - outer_begin), -1.0);
+          }
+          outer.drop_before(outer_begin + below);
+        };
+        // After a gap many boxes enter at once, more than there is room for, and those that are old leave again.
+        for (; first_cell_in(outer_end + 1) < first_in(B - K / 2); drop_outer()) {
           Polynomials& own = *ring_of(1, outer_end);
-          take_in<Piece::outside>(first_in(outer_end), first_in(outer_end + 1), center(outer_end), per_radius, charge,
-                                  powers, own);
+          take_in<Piece::outside>(first_cell_in(outer_end), first_cell_in(outer_end + 1), center(outer_end), per_radius,
+                                  charge, powers, own);
           outer.push(powers);
           sum.add(own, 2.0 * static_cast<double>(B - outer_end), 1.0);
+          ++outer_end;
         }
-        for (; outer_begin < outer_end && (outer_begin < B - K || first_in(outer_begin) <= highest); ++outer_begin) {
-          sum.add(*ring_of(1, outer_begin), 2.0 * static_cast<double>(B - outer_begin), -1.0);
-        }
-        outer.drop_before(outer_begin + below);
+        drop_outer();
       }
       // Moved sums lose digits by the distance moved; ever so often they are formed anew.
       if (B % (K / 2) == 0) {
@@ -250,8 +266,12 @@ class SideSums {
         }
       }
       const std::ptrdiff_t near_box = inner_begin > B - 1 ? inner_begin : B - 1;
-      const Summed summed{
-          first_in(outer_begin), first_in(outer_end), first_in(inner_begin), first_in(near_box), p_begin, charge};
+      const Summed summed{first_cell_in(outer_begin),
+                          first_cell_in(outer_end),
+                          first_in(inner_begin),
+                          first_in(near_box),
+                          p_begin,
+                          charge};
       for (std::ptrdiff_t p = p_begin; p < p_end; p += lane_count) {
         const Vector<s> vector = vector_of(p, p_end);
         const Lanes t = min((vector.x(order_) - center(B)) * per_radius, spread(1.0));

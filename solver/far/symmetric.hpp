@@ -42,7 +42,7 @@ class FarSymmetric {
   static constexpr int sets = 1 + (local ? 1 : 0) + (nonlocal ? 1 : 0);
   static constexpr int nonlocal_set = sets - 1;
   static constexpr int position = (1 + 2 * modes) * sets;
-  using Sums = Channels<SplineMass, sets, position + 1, 12>;
+  using Sums = Channels<SplineMass, sets, position + 1, 16>;
 
   /// reach, moment, then for each set slope and c_hat, then b.
   static constexpr int kept = 2 + 2 * sets + 1;

@@ -55,26 +55,40 @@ inline Lanes counting_from(double first) {
 
 inline constexpr unsigned all_bits = (1U << lane_count) - 1;
 
+// Which lanes something holds for, and a choice by it.
 #if defined(__AVX512F__)
-inline unsigned bits(Mask m) { return _mm512_cmplt_epi64_mask((__m512i)m, _mm512_setzero_si512()); }
-inline bool all_at_most(Lanes a, Lanes b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ) == all_bits; }
+using Choice = __mmask8;
+inline Choice at_most(Lanes a, Lanes b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ); }
+inline Lanes select(Choice c, Lanes a, Lanes b) { return (Lanes)_mm512_mask_blend_pd(c, (__m512d)b, (__m512d)a); }
+inline unsigned bits(Choice c) { return c; }
 #else
-inline unsigned bits(Mask m) {
+using Choice = Mask;
+inline Choice at_most(Lanes a, Lanes b) { return a <= b; }
+inline Lanes select(Choice c, Lanes a, Lanes b) { return c ? a : b; }
+inline unsigned bits(Choice c) {
 #if defined(__AVX2__)
-  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)c));
 #else
-  return static_cast<unsigned>((m[0] & 1) | (m[1] & 2));
+  return static_cast<unsigned>((c[0] & 1) | (c[1] & 2));
 #endif
 }
-inline bool all_at_most(Lanes a, Lanes b) { return bits(a <= b) == all_bits; }
 #endif
+inline bool all_at_most(Lanes a, Lanes b) { return bits(at_most(a, b)) == all_bits; }
+/// The first `number` lanes.
+inline unsigned first_lanes(std::ptrdiff_t number) { return number < lane_count ? (1U << number) - 1 : all_bits; }
+inline int count(unsigned lanes) { return __builtin_popcount(lanes); }
 
-inline bool any(Mask m) { return bits(m) != 0; }
-inline bool all(Mask m) { return bits(m) == all_bits; }
-inline int count(Mask m) { return __builtin_popcount(bits(m)); }
-
+// GCC makes a comparison and a choice of a < b ? a : b.
+#if defined(__AVX512F__)
+inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm512_maskz_min_pd(all_bits, (__m512d)a, (__m512d)b); }
+inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm512_maskz_max_pd(all_bits, (__m512d)a, (__m512d)b); }
+#elif defined(__AVX2__)
+inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm256_min_pd((__m256d)a, (__m256d)b); }
+inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm256_max_pd((__m256d)a, (__m256d)b); }
+#else
 inline Lanes min(Lanes a, Lanes b) { return a < b ? a : b; }
 inline Lanes max(Lanes a, Lanes b) { return a > b ? a : b; }
+#endif
 
 }  // namespace ACSTUDY_ISA
 }  // namespace acstudy

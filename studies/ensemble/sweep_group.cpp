@@ -26,11 +26,11 @@ struct SweepGroup::Kernel {
             sweep.form = SweepKernel::Form::scalar;
           }
           sweep.kernel = &k;
-          sweep.first_moment = [](const void* itself, const Cell& cell) {
-            return static_cast<const K*>(itself)->first_moment(cell);
+          sweep.first_moment = [](const void* itself, double z) {
+            return static_cast<const K*>(itself)->first_moment(z);
           };
           if constexpr (IntegrableKernel<K>) {
-            sweep.mass = [](const void* itself, const Cell& cell) { return static_cast<const K*>(itself)->mass(cell); };
+            sweep.mass = [](const void* itself, double z) { return static_cast<const K*>(itself)->mass(z); };
           }
         },
         kernel);
@@ -148,19 +148,18 @@ void SweepGroup::sweep_moving(Team& team) {
                          .mu = mu_,
                          .x = particles_.x.at(0),
                          .panels = particles_.panels ? particles_.panels->view() : SweepPanels{},
-                         .modes = static_cast<int>(modes.number.size()),
-                         .b_modes = modes.in_b,
                          .half_cosine = {},
                          .half_sine = {},
-                         .c_hat = modes.c_hat,
+                         .c = modes.c,
                          .b = modes.b,
                          .b_prime = begin_of(particles_.b_prime),
                          .local = local,
                          .nonlocal = nonlocal};
     // Modes that there are not have coefficients of zero; what they are read from is of no matter.
+    const int count_of_modes = static_cast<int>(modes.number.size());
     for (int k = 0; k < most_modes; ++k) {
-      sweep.half_cosine[k] = k < sweep.modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
-      sweep.half_sine[k] = k < sweep.modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
+      sweep.half_cosine[k] = k < count_of_modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
+      sweep.half_sine[k] = k < count_of_modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
     }
     each_range(64, [&](const SweepRange& range) { return sweeps().symmetric(range, sweep); });
   }

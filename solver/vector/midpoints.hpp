@@ -9,9 +9,9 @@
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
-/// Relative velocity and particle velocity at midpoints.
+/// Velocities at midpoints.
 struct MidpointVelocities {
-  Lanes c_hat, b;
+  Lanes c_hat, c;
 };
 
 // A representation M of the velocities is made for a vector of particles from j on and asked at the neighbors from i
@@ -54,8 +54,8 @@ class ModalMidpoints {
  public:
   ModalMidpoints(const SymmetricSweep& sweep, std::ptrdiff_t j) : c_(sweep, sweep.c, j), b_(sweep, sweep.b, j) {}
   ACSTUDY_ALWAYS_INLINE inline MidpointVelocities at(std::ptrdiff_t i, Lanes) const {
-    const Lanes b = b_.at(i);
-    return {c_.at(i) - b, b};
+    const Lanes c = c_.at(i);
+    return {c - b_.at(i), c};
   }
 
  private:
@@ -77,7 +77,8 @@ class PolynomialMidpoints {
     t_ = (x_ - 2.0 * number * panels_.spacing) * half_scale_;
   }
   ACSTUDY_ALWAYS_INLINE inline MidpointVelocities at(std::ptrdiff_t, Lanes x) const {
-    return {value(c_hat_, x), value(b_, x)};
+    const Lanes c_hat = value(c_hat_, x);
+    return {c_hat, c_hat + value(b_, x)};
   }
 
  private:

@@ -10,12 +10,12 @@
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
-/// Sums over the neighbors of a particle, with m = 2 delta |W| and the rate R = mu reach m/|d| - sign(k) c_hat m with
-/// which u of the neighbor comes in, both without the factor 1/(2 delta N).
+/// Sums over the neighbors of a particle, with m = 2 delta |W| and R = m (mu reach/|d| - sign(k) c_hat), the rate with
+/// which u of the neighbor comes in, but for 1/(2 delta N).
 struct SymmetricSums {
-  Lanes moment = {}, slope = {};  ///< of |d| m and m/|d|
+  Lanes moment = {};  ///< of |d| m
   Lanes R = {}, R_u_local = {}, R_u_nonlocal = {};
-  Lanes b = {};  ///< of sign(k) b m
+  Lanes c_hat = {}, c = {};  ///< of sign(k) c_hat m and sign(k) c m
 };
 
 template <bool local, bool nonlocal, class Midpoints, class K>
@@ -40,40 +40,42 @@ class Symmetric {
       const auto add = [&]<Piece piece, int s>(Side<s>& side) ACSTUDY_ALWAYS_INLINE {
         pairs += side.count();
         const Neighbor neighbor = side.neighbor();
-        const Lanes m = side.template step<piece>(mass), slope = m / neighbor.distance;
+        const Lanes m = side.template step<piece>(mass), decay = viscosity / neighbor.distance;
         const std::ptrdiff_t i = j - s * neighbor.k;
-        const MidpointVelocities at_midpoint = midpoints.at(i, neighbor.x);
+        const auto [c_hat, c] = midpoints.at(i, neighbor.x);
         // W < 0 on the left
-        const Lanes c_hat_m = at_midpoint.c_hat * m;
-        const Lanes R = s > 0 ? viscosity * slope + c_hat_m : viscosity * slope - c_hat_m;
+        const auto add_signed = [](Lanes& to, Lanes value)
+                                    ACSTUDY_ALWAYS_INLINE { s > 0 ? void(to -= value) : void(to += value); };
+        const Lanes R = m * (s > 0 ? decay + c_hat : decay - c_hat);
         sum.moment += neighbor.distance * m;
-        sum.slope += slope;
         sum.R += R;
-        if constexpr (local) sum.R_u_local += R * load(sweep_.local.u + i);
+        if constexpr (local) {
+          add_signed(sum.c_hat, c_hat * m);
+          sum.R_u_local += R * load(sweep_.local.u + i);
+        }
         if constexpr (nonlocal) {
-          const Lanes b_m = at_midpoint.b * m;
-          s > 0 ? void(sum.b -= b_m) : void(sum.b += b_m);
+          add_signed(sum.c, c * m);
           sum.R_u_nonlocal += R * load(sweep_.nonlocal.u + i);
         }
       };
       walk<K>(add, left, right);
-      finish(j, viscosity, sum);
+      finish(j, sum);
     }
     return pairs;
   }
 
  private:
-  /// (3.8) and (3.10) with the sums taken apart. What u of the particle itself comes in with is minus the sum of
-  /// mu reach m/|d| + sign(k) c_hat m.
-  void finish(std::ptrdiff_t j, Lanes viscosity, const SymmetricSums& sum) const {
-    const Lanes per_moment = 1.0 / sum.moment, own = 2.0 * viscosity * sum.slope - sum.R;
+  /// (3.8) and (3.10) with the sums taken apart. The rate of a particle's own u is minus the sum of
+  /// m (mu reach/|d| + sign(k) c_hat), to which (3.10) adds 2 sign(k) b m.
+  void finish(std::ptrdiff_t j, const SymmetricSums& sum) const {
+    const Lanes per_moment = 1.0 / sum.moment;
     if constexpr (local) {
-      const Lanes u = load(sweep_.local.u + j);
+      const Lanes u = load(sweep_.local.u + j), own = sum.R + 2.0 * sum.c_hat;
       store(sweep_.local.rate + j, (sum.R_u_local - own * u) * per_moment - load(sweep_.b_prime + j) * u);
     }
     if constexpr (nonlocal) {
-      const Lanes u = load(sweep_.nonlocal.u + j);
-      store(sweep_.nonlocal.rate + j, (sum.R_u_nonlocal - (own + 2.0 * sum.b) * u) * per_moment);
+      const Lanes u = load(sweep_.nonlocal.u + j), own = sum.R + 2.0 * sum.c;
+      store(sweep_.nonlocal.rate + j, (sum.R_u_nonlocal - own * u) * per_moment);
     }
   }
 

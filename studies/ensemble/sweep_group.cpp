@@ -115,14 +115,10 @@ void SweepGroup::sweep_moving(Team& team) {
   std::atomic<std::int64_t> pairs{0};
   const auto each_range = [&](std::ptrdiff_t grain, auto run) {
     team.each(count, grain, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
-      for (std::ptrdiff_t next; begin < end; begin = next) {
-        next = std::min(begin + grain, end);
-        SweepRange range = whole;
-        range.begin = begin;
-        range.end = next;
-        pairs += run(range);
-      }
+      SweepRange range = whole;
+      range.begin = begin;
+      range.end = end;
+      pairs += run(range);
     });
   };
   if (model_ == 1) {
@@ -135,9 +131,16 @@ void SweepGroup::sweep_moving(Team& team) {
                             nonlocal};
     const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
     if (far::far_pays(kernel_->sweep.form, neighbors)) {
-      each_range(far::range_size(static_cast<std::ptrdiff_t>(neighbors)), [&](const SweepRange& range) {
+      const std::ptrdiff_t size = far::range_size(static_cast<std::ptrdiff_t>(neighbors));
+      each_range(size, [&](SweepRange range) {
         thread_local far::Memory memory;
-        return far::far_sweeps().upwind(range, sweep, memory);
+        std::int64_t far_pairs = 0;
+        // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
+        for (const std::ptrdiff_t end = range.end; range.begin < end; range.begin = range.end) {
+          range.end = std::min(range.begin + size, end);
+          far_pairs += far::far_sweeps().upwind(range, sweep, memory);
+        }
+        return far_pairs;
       });
     } else {
       each_range(64, [&](const SweepRange& range) { return sweeps().upwind(range, sweep); });

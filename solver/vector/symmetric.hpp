@@ -32,6 +32,7 @@ class Symmetric {
       const Viewpoint from{load(range_.x + j), spread(range_.inside), range_.delta, 1.0 / range_.delta};
       Side<+1> left(range_.x + j, from, counted);
       Side<-1> right(range_.x + j, from, counted);
+      // A neighbor that ties with the horizon stands at it: only the nearest may be beyond.
       const Lanes reach = max(spread(range_.delta), max(left.neighbor().distance, right.neighbor().distance));
       const Lanes viscosity = sweep_.mu * reach;
       const Midpoints midpoints(sweep_, j);

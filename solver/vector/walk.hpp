@@ -89,8 +89,8 @@ class Side {
 template <class K, class Add, class... Sides>
 ACSTUDY_ALWAYS_INLINE inline void walk(const Add& add, Sides&... sides) {
   const auto each = [&]<Piece piece>() ACSTUDY_ALWAYS_INLINE { (add.template operator()<piece>(sides), ...); };
+  while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<Piece::inside>();
   if constexpr (K::breakpoint < 1.0) {
-    while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<Piece::inside>();
     // Where few neighbors are inside, few are outside, and a loop of their own costs more than it saves.
     const double outside = ((sides.neighbor().k > 4) && ...) ? K::breakpoint : 2.0;
     while ((sides.goes_on() && ...) && !(sides.begins_beyond(outside) && ...)) each.template operator()<Piece::any>();

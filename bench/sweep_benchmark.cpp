@@ -64,18 +64,16 @@ struct Swept {
               .nonlocal = {u.at(0), flux.at(0), nonlocal_rate.data()}};
   }
 
-  /// Model II with the same particles: c_hat = cos(2 x)/3 - sin(x), b = sin(x).
+  /// Model II with the same particles: c = cos(2 x)/3, b = sin(x).
   SymmetricSweep symmetric(bool with_nonlocal) {
     SymmetricSweep sweep{.kernel = {SweepKernel::Form::cubic_spline},
                          .mu = 4.0 / 3.0,
                          .x = x.at(0),
                          .panels = {},
-                         .modes = 2,
-                         .b_modes = 1,
                          .half_cosine = {half_cosine.at(0), cosine.at(0), x.at(0), x.at(0)},
                          .half_sine = {half_sine.at(0), b.at(0), x.at(0), x.at(0)},
-                         .c_hat = {0.0, {0.0, 1.0 / 3.0}, {-1.0, 0.0}},
-                         .b = {0.0, {0.0, 0.0}, {1.0, 0.0}},
+                         .c = {.modes = 1, .mode = {1}, .cosine = {1.0 / 3.0}},
+                         .b = {.modes = 1, .mode = {0}, .sine = {1.0}},
                          .b_prime = b_prime.at(0),
                          .local = {u.at(0), nullptr, local_rate.data()},
                          .nonlocal = {}};
@@ -138,11 +136,11 @@ void resolutions(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMicrosecond);
 }
 
-/// Pairs per second, each counted once for each scheme whose rate it goes into. range(1) is the horizon in spacings; 0
-/// stands for delta = 0.2.
+/// Pairs per second, each counted once for each scheme whose rate it goes into. range(1) is the horizon in tenths of
+/// the spacing; 0 stands for delta = 0.2.
 template <class Sweep>
 void pair_rate(benchmark::State& state, int schemes, Sweep sweep) {
-  const double spacings = static_cast<double>(state.range(1));
+  const double spacings = 0.1 * static_cast<double>(state.range(1));
   Swept swept(state.range(0), spacings == 0.0 ? 0.2 : spacings * period / static_cast<double>(state.range(0)));
   double pairs = 0.0;
   for (auto _ : state) pairs += static_cast<double>(schemes * sweep(swept));
@@ -183,11 +181,17 @@ void pairs_banded(benchmark::State& state) {
   state.counters["pairs"] = benchmark::Counter(pairs, benchmark::Counter::kIsRate);
 }
 
-BENCHMARK_CAPTURE(pairs_upwind, inverse, SweepKernel::Form::inverse, false)->ArgsProduct({{2560, 20480}, {0, 4}});
-BENCHMARK_CAPTURE(pairs_upwind, inverse_both, SweepKernel::Form::inverse, true)->ArgsProduct({{2560, 20480}, {0, 4}});
-BENCHMARK_CAPTURE(pairs_upwind, spline, SweepKernel::Form::cubic_spline, false)->ArgsProduct({{2560, 20480}, {0, 4}});
-BENCHMARK_CAPTURE(pairs_symmetric, spline, false)->ArgsProduct({{2560, 20480}, {0, 4}});
-BENCHMARK_CAPTURE(pairs_symmetric, spline_both, true)->ArgsProduct({{2560, 20480}, {0, 4}});
+/// Of the paper's paths: delta = 0.2, sqrt(h) at N = 2560, 4h, and h^2, within which only the nearest is a neighbor.
+void windows(benchmark::internal::Benchmark* benchmark) {
+  for (const int N : {2560, 20480}) benchmark->Args({N, 0});
+  for (const int tenths : {200, 40, 1}) benchmark->Args({2560, tenths});
+}
+BENCHMARK_CAPTURE(pairs_upwind, inverse, SweepKernel::Form::inverse, false)->Apply(windows);
+BENCHMARK_CAPTURE(pairs_upwind, inverse_both, SweepKernel::Form::inverse, true)->Apply(windows);
+BENCHMARK_CAPTURE(pairs_upwind, spline, SweepKernel::Form::cubic_spline, false)->Apply(windows);
+BENCHMARK_CAPTURE(pairs_upwind, spline_both, SweepKernel::Form::cubic_spline, true)->Apply(windows);
+BENCHMARK_CAPTURE(pairs_symmetric, spline, false)->Apply(windows);
+BENCHMARK_CAPTURE(pairs_symmetric, spline_both, true)->Apply(windows);
 BENCHMARK(pairs_banded)->Args({1280, 42})->Args({20480, 42})->Args({20480, 653});
 
 constexpr double fixed_horizon = 0.2;

@@ -61,17 +61,15 @@ struct SweptParticles {
             .nonlocal = {u[1].at(0), flux[1].at(0), rates.nonlocal.data()}};
   }
 
-  /// For velocities of the modes 1 and 2, or of 1, 2 and 3; all of them in b.
+  /// For velocities of the modes 1 and 2, or of 1, 2 and 3.
   SymmetricSweep symmetric(double mu, int modes) {
     SymmetricSweep sweep{.kernel = {SweepKernel::Form::cubic_spline},
                          .mu = mu,
                          .x = particles.x.at(0),
                          .panels = {},
-                         .modes = modes,
-                         .b_modes = modes,
                          .half_cosine = {},
                          .half_sine = {},
-                         .c_hat = series([&](double x) { return velocity.c_hat_at(x); }, modes),
+                         .c = series([&](double x) { return velocity.c_at(x); }, modes),
                          .b = series([&](double x) { return velocity.b_at(x); }, modes),
                          .b_prime = b_prime.at(0),
                          .local = {u[0].at(0), nullptr, rates.local.data()},
@@ -105,6 +103,8 @@ struct SweptParticles {
   static SweepField series(Field field, int modes) {
     constexpr int samples = 16;
     SweepField result;
+    result.modes = modes;
+    for (int n = 0; n < modes; ++n) result.mode[n] = n;
     for (int i = 0; i < samples; ++i) {
       const double x = 2.0 * std::numbers::pi * i / samples, value = field(x) / samples;
       result.constant += value;

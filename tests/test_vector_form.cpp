@@ -1,7 +1,9 @@
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "solver/far/far_sweeps.hpp"
 #include "studies/ensemble/ensemble.hpp"
@@ -148,6 +150,91 @@ TEST_CASE("A neighbor at the horizon counts in the vector form as it does in the
     c.delta *= 1.0 - 1e-9;
     CHECK(relative_gap(swept_rates(c, x, u, false).rate, expected.rate) > 1e-3);
   }
+}
+
+namespace {
+
+/// Rates and pairs of both forms for a horizon, Model I and II, each divergence alone and both together.
+void check_forms_agree(const std::shared_ptr<const Scene>& scene, const std::vector<double>& x, double delta) {
+  const auto u = irregular_values(x.size(), 8);
+  for (const int model : {1, 2}) {
+    for (const char* const kernel : {"inverse", "cubic-spline"}) {
+      if (model == 2 && !integrable({kernel})) continue;
+      for (const bool nonlocal : {false, true}) {
+        const Case c = case_on(scene, model, nonlocal, {kernel}, x.size(), delta);
+        CAPTURE(c.key());
+        const Swept expected = readable_rates(c, x, u);
+        for (const bool with_twin : {false, true}) {
+          const Swept swept = swept_rates(c, x, u, with_twin);
+          CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+          CHECK(swept.pairs == expected.pairs);
+        }
+      }
+    }
+  }
+}
+
+/// Positions within one period whose gaps are in proportion to what is given.
+std::vector<double> with_gaps(std::vector<double> gap, double period) {
+  double sum = 0.0;
+  for (const double each : gap) sum += each;
+  double position = 0.1;
+  for (double& each : gap) position += std::exchange(each, position) * period / sum;
+  return gap;
+}
+
+}  // namespace
+
+TEST_CASE("A horizon about the smallest gap gives each particle its nearest neighbor and hardly another", "[vector]") {
+  const auto scene = random_scene(78);
+  const auto x = irregular_positions(61, scene->period(), 9);
+  const auto [smallest, largest] = test::gaps(x, scene->period());
+  for (const double delta : {1e-200, 0.5 * smallest, smallest, 1.01 * smallest, largest, 1.01 * largest}) {
+    check_forms_agree(scene, x, delta);
+  }
+  const Case c = case_on(scene, 2, true, {"cubic-spline"}, x.size(), 0.99 * smallest);
+  CHECK(swept_rates(c, x, irregular_values(x.size(), 8), true).pairs == static_cast<std::int64_t>(2 * x.size()));
+}
+
+TEST_CASE("Windows may hold many neighbors on one side and few on the other", "[vector]") {
+  const auto scene = random_scene(79);
+  std::vector<double> gap;
+  for (int i = 0; i < 90; ++i) gap.push_back(1.0);
+  for (int i = 0; i < 13; ++i) gap.push_back(25.0);
+  for (int i = 0; i < 30; ++i) gap.push_back(3.0);
+  const auto x = with_gaps(gap, scene->period());
+  const double dense = test::gaps(x, scene->period()).smallest;
+  for (const double neighbors : {3.5, 9.5, 24.5, 60.5, 120.5}) check_forms_agree(scene, x, neighbors * dense);
+}
+
+TEST_CASE("Several neighbors may tie with the horizon", "[vector]") {
+  const auto scene = random_scene(80);
+  // Pairs of particles that all but coincide: the second of a pair is a little beyond the horizon of some.
+  std::vector<double> gap;
+  for (int i = 0; i < 40; ++i) {
+    gap.push_back(1.0);
+    gap.push_back(1e-13);
+  }
+  const auto x = with_gaps(gap, scene->period());
+  for (const int steps : {1, 2, 3, 11}) check_forms_agree(scene, x, x[2 * steps] - x[0]);
+}
+
+TEST_CASE("Velocities at midpoints may have any few modes, in common or not", "[vector]") {
+  const auto x = irregular_positions(43, 2.0 * std::numbers::pi, 10);
+  for (const auto& [c, b] : {std::pair("0.7", "0.3"), std::pair("0.7", "sin(x)"), std::pair("cos(x)", "sin(x) - 2"),
+                             std::pair("sin(x) + cos(3*x)", "0.1"), std::pair("cos(2*x)", "sin(x) + cos(2*x)"),
+                             std::pair("sin(x) + cos(2*x) + sin(4*x)", "cos(5*x) - cos(x)")}) {
+    CAPTURE(c, b);
+    const auto scene = std::make_shared<const Scene>(
+        SceneText{.name = {}, .period = "2*pi", .T = "1", .c = c, .b = b, .u = "cos(x - t)", .flow = {}});
+    REQUIRE(midpoint_modes(VelocitySeries(*scene)));
+    check_forms_agree(scene, x, 0.7);
+  }
+}
+
+TEST_CASE("With hundreds of neighbors the moments of cells keep their digits", "[vector]") {
+  const auto scene = random_scene(81);
+  check_forms_agree(scene, irregular_positions(2500, scene->period(), 11), 0.07 * scene->period());
 }
 
 namespace {

@@ -31,8 +31,11 @@ struct Vector {
   ACSTUDY_ALWAYS_INLINE inline std::ptrdiff_t lowest_index() const { return s > 0 ? first : -(first + lane_count - 1); }
   /// The lane of particle first + i.
   static int lane(int i) { return s > 0 ? i : lane_count - 1 - i; }
-  ACSTUDY_ALWAYS_INLINE inline Lanes p() const { return s * counting_from(static_cast<double>(lowest_index())); }
-  ACSTUDY_ALWAYS_INLINE inline Mask meant() const { return p() < spread(static_cast<double>(first + count)); }
+  ACSTUDY_ALWAYS_INLINE inline Lanes p() const {
+    Lanes p;
+    for (int i = 0; i < lane_count; ++i) p[lane(i)] = static_cast<double>(first + i);
+    return p;
+  }
   ACSTUDY_ALWAYS_INLINE inline Lanes read(const double* by_index) const { return load(by_index + lowest_index()); }
   /// Positions in walking order.
   ACSTUDY_ALWAYS_INLINE inline Lanes x(Order<s> order) const { return s * read(order.x_by_index); }

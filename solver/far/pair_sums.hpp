@@ -141,20 +141,13 @@ class PairSums {
   ACSTUDY_ALWAYS_INLINE inline void add_whole(Lanes x, std::ptrdiff_t first, std::ptrdiff_t last,
                                               ChannelSums<C>& sums) const {
     if (first >= last) return;
-    double x_i = order_.x(first);
-    CellLanes cell;
-    cell.outer = (x - x_i) * per_delta_;
-    if constexpr (C::two_pieces) cell.rest_outer = (delta_ - (x - x_i)) * per_delta_;
+    Lanes z = (x - order_.x(first)) * per_delta_, within = Moment::template within<piece>(z);
     for (std::ptrdiff_t i = first; i < last; ++i) {
-      const double x_next = order_.x(i + 1);
-      cell.inner = (x - x_next) * per_delta_;
-      cell.width = spread((x_next - x_i) * per_delta_);
-      if constexpr (C::two_pieces) cell.rest_inner = (delta_ - (x - x_next)) * per_delta_;
-      const Lanes m = Moment::template of<piece>(cell);
-      add_cell(m, m / cell.outer, i, sums);
-      x_i = x_next;
-      cell.outer = cell.inner;
-      cell.rest_outer = cell.rest_inner;
+      const Lanes z_inner = (x - order_.x(i + 1)) * per_delta_, within_inner = Moment::template within<piece>(z_inner);
+      const Lanes m = within - within_inner;
+      add_cell(m, m / z, i, sums);
+      z = z_inner;
+      within = within_inner;
     }
   }
 
@@ -172,15 +165,10 @@ class PairSums {
   ACSTUDY_ALWAYS_INLINE inline void add_each_others(const Some& some, std::ptrdiff_t first, std::ptrdiff_t last,
                                                     ChannelSums<C>& sums) const {
     for (std::ptrdiff_t i = first; i < last; ++i) {
-      const double x_i = order_.x(i), x_next = order_.x(i + 1);
-      const Mask seen = some.p > spread(static_cast<double>(i));
-      const Lanes zero = {};
-      CellLanes cell{};
-      cell.inner = (some.x - x_next) * per_delta_;
-      cell.outer = (some.x - x_i) * per_delta_;
-      cell.width = spread((x_next - x_i) * per_delta_);
-      const Lanes m = Moment::template of<Piece::inside>(cell);
-      add_cell(seen ? m : zero, seen ? m / cell.outer : zero, i, sums);
+      const Lanes z = (some.x - order_.x(i)) * per_delta_, z_inner = (some.x - order_.x(i + 1)) * per_delta_;
+      const Lanes m = Moment::template within<Piece::inside>(z) - Moment::template within<Piece::inside>(z_inner);
+      const Choice seen = at_most(spread(static_cast<double>(i + 1)), some.p);
+      add_cell(select(seen, m, Lanes{}), select(seen, m / z, Lanes{}), i, sums);
     }
   }
 
@@ -190,29 +178,23 @@ class PairSums {
   ACSTUDY_ALWAYS_INLINE inline void add_some(const Some& some, std::ptrdiff_t first, std::ptrdiff_t summed,
                                              std::ptrdiff_t last, ChannelSums<C>& sums) const {
     const auto& [x, p, outer] = some;
+    const Lanes zero = {}, one = spread(1.0);
     for (std::ptrdiff_t i = first; i < last; ++i) {
-      const Lanes p_i = spread(static_cast<double>(i));
-      const double x_i = order_.x(i), x_next = order_.x(i + 1);
-      const Mask seen = (outer <= p_i) & (p > p_i), is_outermost = outer == p_i;
-      const Lanes zero = {}, one = spread(1.0), distance = x - x_i, z = distance * per_delta_;
-      const CellLanes uncut{(x - x_next) * per_delta_, z, spread((x_next - x_i) * per_delta_),
-                            (delta_ - (x - x_next)) * per_delta_, (delta_ - distance) * per_delta_};
-      CellLanes cell;
-      cell.inner = uncut.inner;
-      cell.rest_inner = max(uncut.rest_inner, zero);
-      cell.outer = is_outermost ? one : min(z, one);
-      cell.rest_outer = is_outermost ? zero : max(uncut.rest_outer, zero);
-      cell.width = is_outermost ? cell.rest_inner : min(uncut.width, cell.rest_inner);
-      Lanes m = Moment::template of<piece>(cell);
-      m = seen ? m : zero;
-      Lanes over = seen ? m / z : zero;
+      const Lanes p_i = spread(static_cast<double>(i)), distance = x - order_.x(i);
+      const Choice is_outermost = at_most(outer, p_i) & at_most(p_i, outer);
+      const Choice seen = at_most(outer, p_i) & at_most(p_i + 1.0, p);
+      const Lanes z = distance * per_delta_, z_inner = (x - order_.x(i + 1)) * per_delta_;
+      Lanes m = Moment::template within<piece>(select(is_outermost, one, min(z, one))) -
+                Moment::template within<piece>(min(z_inner, one));
+      m = select(seen, m, zero);
+      Lanes over = select(seen, m / z, zero);
       if (i >= summed) {
-        const Lanes m_whole = Moment::template of<whole>(uncut);
+        const Lanes m_whole = Moment::template within<whole>(z) - Moment::template within<whole>(z_inner);
         m -= m_whole;
         over -= m_whole / z;
       }
       add_cell(m, over, i, sums);
-      sums.reach = is_outermost ? distance : sums.reach;
+      sums.reach = select(is_outermost, distance, sums.reach);
     }
   }
 

@@ -80,7 +80,8 @@ class SideSums {
 
   /// powers[v][l] = t^(v lane_count + l)
   ACSTUDY_ALWAYS_INLINE static inline void monomials(double t, Lanes* powers) {
-    const Mask exponent = __builtin_convertvector(counting_from(0.0), Mask);
+    Mask exponent;
+    for (int l = 0; l < lane_count; ++l) exponent[l] = l;
     powers[0] = spread(1.0);
     double power = t;
 #pragma GCC unroll 4

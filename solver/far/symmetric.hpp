@@ -22,7 +22,11 @@ template <bool local, bool nonlocal, int modes>
 class FarSymmetric {
  public:
   FarSymmetric(const SweepRange& range, const SymmetricSweep& sweep, Memory& memory)
-      : range_(range), sweep_(sweep), memory_(memory), origin_(range.x[(range.begin + range.end) / 2]) {}
+      : range_(range), sweep_(sweep), memory_(memory), origin_(range.x[(range.begin + range.end) / 2]) {
+    c_hat_.add(sweep.c, +1.0);
+    c_hat_.add(sweep.b, -1.0);
+    b_.add(sweep.b, +1.0);
+  }
 
   std::int64_t run() {
     const double* const rows = fill_rows();
@@ -43,6 +47,18 @@ class FarSymmetric {
   static constexpr int nonlocal_set = sets - 1;
   static constexpr int position = (1 + 2 * modes) * sets;
   using Sums = Channels<SplineMass, sets, position + 1, 16>;
+
+  /// A field by all of the sweep's modes.
+  struct Modes {
+    double constant = 0.0, cosine[modes] = {}, sine[modes] = {};
+    void add(const SweepField& field, double factor) {
+      constant += factor * field.constant;
+      for (int i = 0; i < field.modes; ++i) {
+        cosine[field.mode[i]] += factor * field.cosine[i];
+        sine[field.mode[i]] += factor * field.sine[i];
+      }
+    }
+  };
 
   /// reach, moment, then for each set slope and c_hat, then b.
   static constexpr int kept = 2 + 2 * sets + 1;
@@ -83,21 +99,21 @@ class FarSymmetric {
     totals.reach() = sums.reach;
     // |d| = s (x_j - x_i), both from the origin
     totals.moment() = s * ((vector.read(sweep_.x) - origin_) * sums.plain[0] - sums.plain[position]);
-    Lanes c_hat[sets], b = sweep_.b.constant * sums.plain[0];
+    Lanes c_hat[sets], b = b_.constant * sums.plain[0];
     for (int k = 0; k < sets; ++k) {
       totals.slope(k) = sums.over[k] * (1.0 / range_.delta);
-      c_hat[k] = sweep_.c_hat.constant * sums.plain[k];
+      c_hat[k] = c_hat_.constant * sums.plain[k];
     }
     for (int n = 0; n < modes; ++n) {
       const Lanes C = vector.read(sweep_.half_cosine[n]), S = vector.read(sweep_.half_sine[n]);
       const Lanes* const of_C = sums.plain + (1 + 2 * n) * sets;
       const Lanes* const of_S = of_C + sets;
-      const auto by = [&](const SweepField& field, int k) ACSTUDY_ALWAYS_INLINE {
+      const auto by = [&](const Modes& field, int k) ACSTUDY_ALWAYS_INLINE {
         return (field.cosine[n] * C + field.sine[n] * S) * of_C[k] +
                (field.sine[n] * C - field.cosine[n] * S) * of_S[k];
       };
-      for (int k = 0; k < sets; ++k) c_hat[k] += by(sweep_.c_hat, k);
-      if constexpr (nonlocal) b += by(sweep_.b, 0);
+      for (int k = 0; k < sets; ++k) c_hat[k] += by(c_hat_, k);
+      if constexpr (nonlocal) b += by(b_, 0);
     }
     for (int k = 0; k < sets; ++k) totals.c_hat(k) = sign * c_hat[k];
     totals.b() = sign * b;
@@ -125,6 +141,7 @@ class FarSymmetric {
   const SweepRange& range_;
   const SymmetricSweep& sweep_;
   Memory& memory_;
+  Modes c_hat_, b_;
   double origin_;       ///< of positions in rows, near to all of them
   double* left_[kept];  ///< totals of the left side, by index
 };
@@ -138,7 +155,11 @@ std::int64_t symmetric_with(const SweepRange& range, const SymmetricSweep& sweep
 }
 
 inline std::int64_t symmetric_sweep(const SweepRange& range, const SymmetricSweep& sweep, Memory& memory) {
-  return sweep.modes <= 2 ? symmetric_with<2>(range, sweep, memory) : symmetric_with<most_modes>(range, sweep, memory);
+  int modes = 0;
+  for (const SweepField* const field : {&sweep.c, &sweep.b}) {
+    for (int i = 0; i < field->modes; ++i) modes = field->mode[i] < modes ? modes : field->mode[i] + 1;
+  }
+  return modes <= 2 ? symmetric_with<2>(range, sweep, memory) : symmetric_with<most_modes>(range, sweep, memory);
 }
 
 }  // namespace ACSTUDY_ISA

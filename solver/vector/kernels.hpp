@@ -1,74 +1,66 @@
 #pragma once
 
 /// @file
-/// Cell moments of the kernels for several particles at a time.
+/// Moments of the kernels for several particles at a time.
 
-#include "solver/cells.hpp"
 #include "solver/vector/lanes.hpp"
 
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
-/// Cells of particles, in units of the horizon; see Cell.
-struct CellLanes {
-  Lanes inner, outer;
-  Lanes width;
-  Lanes rest_inner, rest_outer;
-};
-
 /// Where a cell lies: within a piece of the kernel, or possibly across its breakpoint.
-enum class Piece { inside, outside, any };
+enum class Piece { inside, any, outside };
 
-// What the sums ask of a kernel K. A constant factor that all cells of a particle share is put in last (Model I) or
+// What the sums ask of a kernel K: its moments within a distance z, in units of the horizon. That of a cell is the
+// difference at its ends. Its round-off is no larger than what the last digit of a neighbor's distance makes, and what
+// one cell loses the next one gains. A constant factor that all cells of a particle share is put in last (Model I) or
 // cancels (Model II):
 //
-//   K::breakpoint               end of the piece `inside`, or 1
-//   K::moment_scale             what first_moment has to be multiplied with
-//   first_moment<piece>(cell)   proportional to the kernel's own; see solver/kernels.hpp
-//   mass<piece>(cell)           likewise
+//   K::breakpoint            end of the piece `inside`, or 1
+//   K::moment_scale          what first_moment has to be multiplied with
+//   first_moment<piece>(z)   proportional to the kernel's own; see solver/kernels.hpp
+//   mass<piece>(z)           likewise
 
 /// eta(z) = 1/z.
 struct InverseLanes {
   static constexpr double breakpoint = 1.0;
   static constexpr double moment_scale = 1.0;
   template <Piece>
-  Lanes first_moment(const CellLanes& cell) const {
-    return cell.width;
+  Lanes first_moment(Lanes z) const {
+    return z;
   }
 };
 
-/// The derivative of the cubic B-spline. Within a piece these are the formulas of CubicSplineKernel. Across the
-/// breakpoint the outer polynomial is the inner one and a power of what is beyond 1/2:
+/// The derivative of the cubic B-spline. Inside and outside of the breakpoint these are the formulas of
+/// CubicSplineKernel. On both sides the polynomial is the inner one and a power of what is beyond 1/2:
 /// eta = 32 z - 48 z^2 + 64 (z - 1/2)_+^2.
 struct CubicSplineLanes {
   static constexpr double breakpoint = 0.5;
 
   template <Piece piece>
-  Lanes mass(const CellLanes& cell) const {
-    const auto& [a, b, width, rest_a, rest_b] = cell;
+  Lanes mass(Lanes z) const {
     if constexpr (piece == Piece::outside) {
-      const Lanes sum = rest_a + rest_b;
-      return width * (sum * sum - rest_a * rest_b) * (1.0 / 3.0);
+      const Lanes rest = 1.0 - z;
+      return 1.0 / 6.0 - rest * rest * (1.0 / 3.0 * rest);
     } else {
-      const Lanes sum = a + b, inside = width * (sum * (1.0 - sum) + a * b);
-      if constexpr (piece == Piece::inside) return inside;
-      const Lanes p = max(a - 0.5, Lanes{}), q = max(b - 0.5, Lanes{});
-      return inside + (4.0 / 3.0) * (q - p) * (p * p + p * q + q * q);
+      const Lanes z_2 = z * z, inner = z_2 - z_2 * z;
+      if constexpr (piece == Piece::inside) return inner;
+      const Lanes p = max(z - 0.5, Lanes{});
+      return inner + p * p * (4.0 / 3.0 * p);
     }
   }
 
   static constexpr double moment_scale = 4.0 / 3.0;
   template <Piece piece>
-  Lanes first_moment(const CellLanes& cell) const {
-    const auto& [a, b, width, rest_a, rest_b] = cell;
+  Lanes first_moment(Lanes z) const {
     if constexpr (piece == Piece::outside) {
-      const Lanes sum = rest_a + rest_b;
-      return width * (sum * sum * (4.0 - 3.0 * sum) - rest_a * rest_b * (4.0 - 6.0 * sum));
+      const Lanes rest = 1.0 - z;
+      return 0.75 - rest * rest * rest * (4.0 - 3.0 * rest);
     } else {
-      const Lanes sum = a + b, inside = width * (sum * sum * (8.0 - 9.0 * sum) - a * b * (8.0 - 18.0 * sum));
-      if constexpr (piece == Piece::inside) return inside;
-      const Lanes p = max(a - 0.5, Lanes{}), q = max(b - 0.5, Lanes{});
-      return inside + (q - p) * (8.0 * (p * p + p * q + q * q) + 12.0 * (p + q) * (p * p + q * q));
+      const Lanes inner = z * z * z * (8.0 - 9.0 * z);
+      if constexpr (piece == Piece::inside) return inner;
+      const Lanes p = max(z - 0.5, Lanes{});
+      return inner + p * p * p * (8.0 + 12.0 * p);
     }
   }
 };
@@ -79,33 +71,30 @@ struct CubicSplineLanes {
 class ScalarLanes {
  public:
   static constexpr double breakpoint = 1.0;
-  using CellFunction = double (*)(const void* kernel, const Cell& cell);
+  using MomentFunction = double (*)(const void* kernel, double z);
 
-  ScalarLanes(const void* kernel, CellFunction cell_moment, CellFunction cell_mass)
-      : kernel_(kernel), first_moment_(cell_moment), mass_(cell_mass) {}
+  ScalarLanes(const void* kernel, MomentFunction moment_within, MomentFunction mass_within)
+      : kernel_(kernel), first_moment_(moment_within), mass_(mass_within) {}
 
   static constexpr double moment_scale = 1.0;
   template <Piece>
-  Lanes first_moment(const CellLanes& cells) const {
-    return each(first_moment_, cells);
+  Lanes first_moment(Lanes z) const {
+    return each(first_moment_, z);
   }
   template <Piece>
-  Lanes mass(const CellLanes& cells) const {
-    return each(mass_, cells);
+  Lanes mass(Lanes z) const {
+    return each(mass_, z);
   }
 
  private:
-  Lanes each(CellFunction function, const CellLanes& c) const {
+  Lanes each(MomentFunction function, Lanes z) const {
     Lanes result;
-    for (int i = 0; i < lane_count; ++i) {
-      const Cell cell{c.inner[i], c.outer[i], c.width[i], c.rest_inner[i], c.rest_outer[i]};
-      result[i] = cell.width > 0.0 ? function(kernel_, cell) : 0.0;
-    }
+    for (int i = 0; i < lane_count; ++i) result[i] = function(kernel_, z[i]);
     return result;
   }
 
   const void* kernel_;
-  CellFunction first_moment_, mass_;
+  MomentFunction first_moment_, mass_;
 };
 
 }  // namespace ACSTUDY_ISA

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__AVX512F__) || defined(__AVX2__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -46,35 +46,44 @@ inline Lanes load(const double* p) {
 inline void store(double* p, Lanes v) { std::memcpy(p, &v, sizeof v); }
 
 inline Lanes spread(double value) { return value - Lanes{}; }
-/// first, first + 1, ...
-inline Lanes counting_from(double first) {
-  Lanes v;
-  for (int i = 0; i < lane_count; ++i) v[i] = first + i;
-  return v;
-}
 
 inline constexpr unsigned all_bits = (1U << lane_count) - 1;
 
+// Which lanes something holds for, a choice by it, and the smaller and the larger, of which GCC makes a comparison and
+// a choice unless it is told.
 #if defined(__AVX512F__)
-inline unsigned bits(Mask m) { return _mm512_cmplt_epi64_mask((__m512i)m, _mm512_setzero_si512()); }
-inline bool all_at_most(Lanes a, Lanes b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ) == all_bits; }
+using Choice = __mmask8;
+inline Choice at_most(Lanes a, Lanes b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ); }
+inline Lanes select(Choice c, Lanes a, Lanes b) { return (Lanes)_mm512_mask_blend_pd(c, (__m512d)b, (__m512d)a); }
+inline unsigned bits(Choice c) { return c; }
+inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm512_maskz_min_pd(all_bits, (__m512d)a, (__m512d)b); }
+inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm512_maskz_max_pd(all_bits, (__m512d)a, (__m512d)b); }
 #else
-inline unsigned bits(Mask m) {
+using Choice = Mask;
+inline Choice at_most(Lanes a, Lanes b) { return a <= b; }
+inline Lanes select(Choice c, Lanes a, Lanes b) { return c ? a : b; }
 #if defined(__AVX2__)
-  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
+inline unsigned bits(Choice c) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)c)); }
+inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm256_min_pd((__m256d)a, (__m256d)b); }
+inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm256_max_pd((__m256d)a, (__m256d)b); }
+#elif defined(__SSE2__)
+inline unsigned bits(Choice c) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)c)); }
+inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm_min_pd((__m128d)a, (__m128d)b); }
+inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm_max_pd((__m128d)a, (__m128d)b); }
 #else
-  return static_cast<unsigned>((m[0] & 1) | (m[1] & 2));
-#endif
-}
-inline bool all_at_most(Lanes a, Lanes b) { return bits(a <= b) == all_bits; }
-#endif
-
-inline bool any(Mask m) { return bits(m) != 0; }
-inline bool all(Mask m) { return bits(m) == all_bits; }
-inline int count(Mask m) { return __builtin_popcount(bits(m)); }
-
+inline unsigned bits(Choice c) { return static_cast<unsigned>((c[0] & 1) | (c[1] & 2)); }
 inline Lanes min(Lanes a, Lanes b) { return a < b ? a : b; }
 inline Lanes max(Lanes a, Lanes b) { return a > b ? a : b; }
+#endif
+#endif
+
+inline bool all_at_most(Lanes a, Lanes b) { return bits(at_most(a, b)) == all_bits; }
+/// The first `number` lanes.
+inline unsigned first_lanes(std::ptrdiff_t number) { return number < lane_count ? (1U << number) - 1 : all_bits; }
+inline int count(unsigned lanes) {
+  // Two lanes are those of processors that may have no instruction for it.
+  return lane_count == 2 ? static_cast<int>((lanes & 1) + (lanes >> 1)) : __builtin_popcount(lanes);
+}
 
 }  // namespace ACSTUDY_ISA
 }  // namespace acstudy

@@ -9,43 +9,58 @@
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
+/// Velocities at midpoints.
+struct MidpointVelocities {
+  Lanes c_hat, c;
+};
+
 // A representation M of the velocities is made for a vector of particles from j on and asked at the neighbors from i
 // on, which stand at x_i:
 //
-//   M(sweep, j)                        once
-//   c_hat(i, x_i), b(i, x_i)           at the midpoints
+//   M(sweep, j)     once
+//   at(i, x_i)      at the midpoints
 
-/// Velocities of few modes, each a product of what belongs to either particle; see SymmetricSweep. The first `b_modes`
-/// modes may be in b.
-template <int modes, int b_modes>
+/// A field of few modes at midpoints, each mode a product of what belongs to either particle; see SymmetricSweep.
+template <int modes>
 class TrigonometricMidpoints {
  public:
-  TrigonometricMidpoints(const SymmetricSweep& sweep, std::ptrdiff_t j) : sweep_(sweep) {
+  TrigonometricMidpoints(const SymmetricSweep& sweep, const SweepField& field, std::ptrdiff_t j)
+      : constant_(spread(field.constant)) {
     for (int n = 0; n < modes; ++n) {
-      const Lanes C = load(sweep.half_cosine[n] + j), S = load(sweep.half_sine[n] + j);
-      c_hat_C_[n] = sweep.c_hat.cosine[n] * C + sweep.c_hat.sine[n] * S;
-      c_hat_S_[n] = sweep.c_hat.sine[n] * C - sweep.c_hat.cosine[n] * S;
-      if (n >= b_modes) continue;
-      b_C_[n] = sweep.b.cosine[n] * C + sweep.b.sine[n] * S;
-      b_S_[n] = sweep.b.sine[n] * C - sweep.b.cosine[n] * S;
+      half_cosine_[n] = sweep.half_cosine[field.mode[n]];
+      half_sine_[n] = sweep.half_sine[field.mode[n]];
+      const Lanes C = load(half_cosine_[n] + j), S = load(half_sine_[n] + j);
+      by_C_[n] = field.cosine[n] * C + field.sine[n] * S;
+      by_S_[n] = field.sine[n] * C - field.cosine[n] * S;
     }
   }
-  Lanes c_hat(std::ptrdiff_t i, Lanes) const { return at<modes>(i, sweep_.c_hat.constant, c_hat_C_, c_hat_S_); }
-  Lanes b(std::ptrdiff_t i, Lanes) const { return at<b_modes>(i, sweep_.b.constant, b_C_, b_S_); }
-
- private:
-  template <int count>
-  Lanes at(std::ptrdiff_t i, double constant, const Lanes* by_C, const Lanes* by_S) const {
-    Lanes value = spread(constant);
-    for (int n = 0; n < count; ++n) {
-      value += by_C[n] * load(sweep_.half_cosine[n] + i);
-      value += by_S[n] * load(sweep_.half_sine[n] + i);
+  ACSTUDY_ALWAYS_INLINE inline Lanes at(std::ptrdiff_t i) const {
+    Lanes value = constant_;
+    for (int n = 0; n < modes; ++n) {
+      value += by_C_[n] * load(half_cosine_[n] + i);
+      value += by_S_[n] * load(half_sine_[n] + i);
     }
     return value;
   }
 
-  const SymmetricSweep& sweep_;
-  Lanes c_hat_C_[modes + 1], c_hat_S_[modes + 1], b_C_[b_modes + 1], b_S_[b_modes + 1];
+ private:
+  const double *half_cosine_[modes], *half_sine_[modes];
+  Lanes constant_, by_C_[modes], by_S_[modes];
+};
+
+/// Velocities c and b of few modes each.
+template <int c_modes, int b_modes>
+class ModalMidpoints {
+ public:
+  ModalMidpoints(const SymmetricSweep& sweep, std::ptrdiff_t j) : c_(sweep, sweep.c, j), b_(sweep, sweep.b, j) {}
+  ACSTUDY_ALWAYS_INLINE inline MidpointVelocities at(std::ptrdiff_t i, Lanes) const {
+    const Lanes c = c_.at(i);
+    return {c - b_.at(i), c};
+  }
+
+ private:
+  TrigonometricMidpoints<c_modes> c_;
+  TrigonometricMidpoints<b_modes> b_;
 };
 
 /// Any smooth velocities, by one polynomial for all midpoints of a vector of particles; see SweepPanels.
@@ -61,20 +76,22 @@ class PolynomialMidpoints {
     half_scale_ = 0.5 / panels_.radius;
     t_ = (x_ - 2.0 * number * panels_.spacing) * half_scale_;
   }
-  Lanes c_hat(std::ptrdiff_t, Lanes x) const { return at(c_hat_, x); }
-  Lanes b(std::ptrdiff_t, Lanes x) const { return at(b_, x); }
+  ACSTUDY_ALWAYS_INLINE inline MidpointVelocities at(std::ptrdiff_t, Lanes x) const {
+    const Lanes c_hat = value(c_hat_, x);
+    return {c_hat, c_hat + value(b_, x)};
+  }
 
  private:
-  Lanes at(const double* coefficient, Lanes x) const {
+  ACSTUDY_ALWAYS_INLINE inline Lanes value(const double* coefficient, Lanes x) const {
     const Lanes t = x * half_scale_ + t_;
-    Lanes value = {};
+    Lanes sum = {};
     for (int n = panels_.terms; n > 0; n -= 4) {
-      value = value * t + coefficient[n - 1];
-      value = value * t + coefficient[n - 2];
-      value = value * t + coefficient[n - 3];
-      value = value * t + coefficient[n - 4];
+      sum = sum * t + coefficient[n - 1];
+      sum = sum * t + coefficient[n - 2];
+      sum = sum * t + coefficient[n - 3];
+      sum = sum * t + coefficient[n - 4];
     }
-    return value;
+    return sum;
   }
 
   const SweepPanels& panels_;

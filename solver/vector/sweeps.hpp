@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/cells.hpp"
 #include "solver/rate_matrix.hpp"
 
 namespace acstudy {
@@ -18,9 +17,9 @@ namespace acstudy {
 struct SweepKernel {
   enum class Form { inverse, cubic_spline, scalar };
   Form form;
-  const void* kernel = nullptr;  ///< for `scalar`: any kernel, by its cell moments
-  double (*first_moment)(const void* kernel, const Cell& cell) = nullptr;
-  double (*mass)(const void* kernel, const Cell& cell) = nullptr;
+  const void* kernel = nullptr;  ///< for `scalar`: any kernel, by its moments within a distance z
+  double (*first_moment)(const void* kernel, double z) = nullptr;
+  double (*mass)(const void* kernel, double z) = nullptr;
 };
 
 /// A scheme that takes part in a sweep: its values and where its rates go. Both divergence forms may, and then share
@@ -48,12 +47,14 @@ struct UpwindSweep {
   SweepScheme local, nonlocal;
 };
 
-/// Most modes that midpoint velocities may have; more are not worth their products.
+/// Most modes that the velocities at midpoints may have together; more are not worth their products.
 inline constexpr int most_modes = 4;
 
-/// A trigonometric field a_0 + sum_n (cosine_n cos(n w x) + sine_n sin(n w x)) over the modes of a sweep.
+/// A trigonometric field a_0 + sum_i (cosine_i cos(n_i w x) + sine_i sin(n_i w x)).
 struct SweepField {
   double constant = 0.0;
+  int modes = 0;
+  int mode[most_modes] = {};  ///< which of the sweep's modes n_i is
   double cosine[most_modes] = {}, sine[most_modes] = {};
 };
 
@@ -77,11 +78,9 @@ struct SymmetricSweep {
   double mu;
   const double* x;  ///< with ghosts
   SweepPanels panels;
-  int modes;                              ///< those of b first
-  int b_modes;                            ///< how many of them are in b
-  const double* half_cosine[most_modes];  ///< C of each mode, with ghosts
+  const double* half_cosine[most_modes];  ///< C of each mode, with ghosts; none may be null
   const double* half_sine[most_modes];    ///< S
-  SweepField c_hat, b;
+  SweepField c, b;
   const double* b_prime;  ///< of the local form
   SweepScheme local, nonlocal;
 };

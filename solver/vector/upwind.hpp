@@ -20,39 +20,42 @@ class Upwind {
   Upwind(const SweepRange& range, const UpwindSweep& sweep, K kernel) : range_(range), sweep_(sweep), kernel_(kernel) {}
 
   std::int64_t run() {
-    const Lanes zero = {};
+    const Lanes inside = spread(range_.inside), none = spread(-1.0);
     for (std::ptrdiff_t j = range_.begin; j < range_.end; j += lane_count) {
-      const Lanes c_hat = load(sweep_.c_hat + j);
-      const Mask counted = counting_from(0.0) < spread(static_cast<double>(range_.end - j));
-      const Mask left = c_hat > zero;
-      if (all(left)) {
-        finish(j, spread(+1.0), sums<+1>(j, left, counted));
-      } else if (!any(left)) {
-        finish(j, spread(-1.0), sums<-1>(j, ~left, counted));
+      const unsigned counted = first_lanes(range_.end - j);
+      const Choice looks_right = at_most(load(sweep_.c_hat + j), Lanes{});
+      const unsigned right = bits(looks_right);
+      if (right == 0) {
+        finish(j, spread(+1.0), sums<+1>(j, inside, counted));
+      } else if (right == all_bits) {
+        finish(j, spread(-1.0), sums<-1>(j, inside, counted));
       } else {
-        const UpwindSums l = sums<+1>(j, left, counted), r = sums<-1>(j, ~left, counted);
-        finish(j, left ? spread(+1.0) : spread(-1.0),
-               {left ? l.W : r.W, left ? l.flux_local : r.flux_local, left ? l.b : r.b,
-                left ? l.flux_nonlocal : r.flux_nonlocal});
+        const UpwindSums l = sums<+1>(j, select(looks_right, none, inside), counted & ~right),
+                         r = sums<-1>(j, select(looks_right, inside, none), counted & right);
+        finish(j, select(looks_right, spread(-1.0), spread(+1.0)),
+               {select(looks_right, r.W, l.W), select(looks_right, r.flux_local, l.flux_local),
+                select(looks_right, r.b, l.b), select(looks_right, r.flux_nonlocal, l.flux_nonlocal)});
       }
     }
     return pairs_;
   }
 
  private:
+  /// @param inside   negative for lanes that look to the other side
+  /// @param counted  lanes whose pairs are counted
   template <int s>
-  UpwindSums sums(std::ptrdiff_t j, Mask active, Mask counted) {
+  UpwindSums sums(std::ptrdiff_t j, Lanes inside, unsigned counted) {
+    const Viewpoint from{load(range_.x + j), inside, range_.delta, 1.0 / range_.delta};
+    Side<s> side(range_.x + j, from, counted);
     UpwindSums sum;
-    const int counted_lanes = count(counted);
-    const auto visit = [&]<class Kind>(Kind, const Neighbor& neighbor) ACSTUDY_ALWAYS_INLINE {
+    const auto first_moment = [&]<Piece piece>(Lanes z)
+                                  ACSTUDY_ALWAYS_INLINE { return kernel_.template first_moment<piece>(z); };
+    std::int64_t pairs = 0;
+    const auto add = [&]<Piece piece>(Side<s>& there) ACSTUDY_ALWAYS_INLINE {
+      pairs += there.count();
+      const Neighbor neighbor = there.neighbor();
+      const Lanes W = there.template step<piece>(first_moment) / neighbor.distance;
       const std::ptrdiff_t i = j - s * neighbor.k;
-      Lanes W = kernel_.template first_moment<Kind::piece>(neighbor.cell) / neighbor.distance;
-      if constexpr (Kind::masked) {
-        W = neighbor.active ? W : Lanes{};
-        pairs_ += count(neighbor.active & counted);
-      } else {
-        pairs_ += counted_lanes;
-      }
       sum.W += W;
       if constexpr (local) sum.flux_local += W * load(sweep_.local.flux + i);
       if constexpr (nonlocal) {
@@ -60,7 +63,8 @@ class Upwind {
         sum.flux_nonlocal += W * load(sweep_.nonlocal.flux + i);
       }
     };
-    walk<s, K>(range_.x + j, {range_.delta, range_.inside}, active, visit);
+    walk<K>(add, side);
+    pairs_ += pairs;
     const double scale = K::moment_scale;
     return {sum.W * scale, sum.flux_local * scale, sum.b * scale, sum.flux_nonlocal * scale};
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// The walk of consecutive particles over their neighbors on one side, all of them in step.
+/// The walk of consecutive particles over their neighbors, all of them in step.
 
 #include "solver/vector/kernels.hpp"
 #include "solver/vector/lanes.hpp"
@@ -9,102 +9,99 @@
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
-/// Which neighbors are inside: up to `inside`, delta plus the tolerance of ties.
-struct Horizon {
-  double delta, inside;
+/// Consecutive particles and what they see.
+struct Viewpoint {
+  Lanes x;
+  Lanes inside;  ///< largest distance of a neighbor besides the nearest one; negative: there is no other
+  double delta, per_delta;
 };
 
-/// What a visit finds at the neighbor k of every lane.
+/// A neighbor of each lane.
 struct Neighbor {
-  std::ptrdiff_t k;
+  std::ptrdiff_t k;  ///< the k-th on its side
   Lanes x;
   Lanes distance;
-  CellLanes cell;
-  Mask active;  ///< only where some lanes are through with their window
 };
 
-template <Piece p, bool m>
-struct VisitKind {
-  static constexpr Piece piece = p;
-  static constexpr bool masked = m;
-};
-
-/// Calls visit(VisitKind, Neighbor) for k = 1, 2, ... until every active lane has left its window.
-///
-/// Neighbor k of lane l is x[l - s k]. While no lane leaves its window and all cells are within one piece of the
-/// kernel, nothing is masked and no case is told from another: one comparison a neighbor finds out.
-///
-/// @param x       at the first of the particles, readable as far as the windows reach and one beyond
-/// @param active  the lanes that look to this side
-/// @return        distance of the outermost neighbor of each active lane
-template <int s, class K, class Visit>
-ACSTUDY_ALWAYS_INLINE inline Lanes walk(const double* x, Horizon horizon, Mask active, Visit&& visit) {
-  const double per_delta = 1.0 / horizon.delta;
-  const Lanes x_0 = load(x), delta = spread(horizon.delta), inside = spread(horizon.inside);
-  std::ptrdiff_t k = 1;
-  Lanes before = x_0, here = load(x - s);
-  Lanes distance = s > 0 ? x_0 - here : here - x_0;
-  Lanes z_before = {}, rest_before = spread(1.0);
-
-  const auto next_neighbor = [&]() ACSTUDY_ALWAYS_INLINE { return load(x - s * (k + 1)); };
-  const auto distance_of = [&](Lanes neighbor)
-                               ACSTUDY_ALWAYS_INLINE { return s > 0 ? x_0 - neighbor : neighbor - x_0; };
-  const auto gap = [&]() ACSTUDY_ALWAYS_INLINE { return s > 0 ? before - here : here - before; };
-  const auto step_to = [&](Lanes neighbor, Lanes its_distance, const CellLanes& cell) ACSTUDY_ALWAYS_INLINE {
-    before = here;
-    here = neighbor;
-    distance = its_distance;
-    z_before = cell.outer;
-    rest_before = cell.rest_outer;
-    ++k;
-  };
-  // Neighbors with the next one within `limit`, up to the first whose cell begins at `until` or beyond it.
-  const auto unmasked = [&]<Piece piece>(Lanes limit, double until) ACSTUDY_ALWAYS_INLINE {
-    for (;;) {
-      if (until > 0.0 && all_at_most(spread(until), z_before)) return;
-      const Lanes next = next_neighbor(), next_distance = distance_of(next);
-      if (!all_at_most(next_distance, limit)) return;
-      const CellLanes cell{z_before, distance * per_delta, gap() * per_delta, rest_before,
-                           (delta - distance) * per_delta};
-      visit(VisitKind<piece, false>{}, Neighbor{k, here, distance, cell, active});
-      step_to(next, next_distance, cell);
-    }
-  };
-
-  if (all(active)) {
-    if constexpr (K::breakpoint < 1.0) {
-      unmasked.template operator()<Piece::inside>(delta * K::breakpoint, 0.0);
-      unmasked.template operator()<Piece::any>(inside, K::breakpoint);
-      unmasked.template operator()<Piece::outside>(inside, 0.0);
-    } else {
-      unmasked.template operator()<Piece::any>(inside, 0.0);
-    }
+/// The neighbors on one side, one after the other: neighbor k of lane l is x[l - s k], k = 1, 2, ...
+template <int s>
+class Side {
+ public:
+  /// @param x        at the first of the particles, readable as far as their windows reach and one beyond
+  /// @param counted  lanes whose neighbors are counted, a bit each
+  ACSTUDY_ALWAYS_INLINE inline Side(const double* x, const Viewpoint& from, unsigned counted)
+      : x_(x), from_(from), counted_(counted), neighbor_{1, load(x - s), {}} {
+    neighbor_.distance = distance_of(neighbor_.x);
   }
 
-  Lanes outermost = {};
-  const auto masked = [&]<Piece piece>() ACSTUDY_ALWAYS_INLINE {
-    while (any(active)) {
-      const Lanes next = next_neighbor(), next_distance = distance_of(next);
-      const Mask goes_on = active & (next_distance <= inside);
-      CellLanes cell;
-      cell.inner = z_before;
-      cell.rest_inner = rest_before;
-      cell.outer = goes_on ? min(distance * per_delta, spread(1.0)) : spread(1.0);
-      cell.rest_outer = goes_on ? max((delta - distance) * per_delta, Lanes{}) : Lanes{};
-      // The last cell ends at the horizon, beyond which a neighbor that ties with it may stand.
-      cell.width = goes_on ? min(gap() * per_delta, rest_before) : rest_before;
-      visit(VisitKind<piece, true>{}, Neighbor{k, here, distance, cell, active});
-      outermost = active ? distance : outermost;
-      active = goes_on;
-      step_to(next, next_distance, cell);
+  /// Some lane has a neighbor k.
+  bool goes_on() const { return lanes_ != 0; }
+  /// Number of counted lanes that have.
+  int count() const { return acstudy::count(lanes_ & counted_); }
+  const Neighbor& neighbor() const { return neighbor_; }
+
+  /// The cells of all lanes end before z, in units of the horizon, and none of them is its lane's last.
+  ACSTUDY_ALWAYS_INLINE inline bool ends_before(double z) const {
+    return all_at_most(distance_of(load_next()), spread(z * from_.delta));
+  }
+  /// The cells of all lanes begin at z or beyond.
+  ACSTUDY_ALWAYS_INLINE inline bool begins_beyond(double z) const {
+    return all_at_most(spread(z * from_.delta), distance_before_);
+  }
+
+  /// Steps from neighbor k to k + 1. @return moment of the cell of k; 0 in lanes that have no neighbor k
+  ///
+  /// @param within  a kernel's moment up to z, for cells in this piece of it
+  template <Piece piece, class Within>
+  ACSTUDY_ALWAYS_INLINE inline Lanes step(const Within& within) {
+    const Lanes next = load_next(), next_distance = distance_of(next);
+    Lanes z = neighbor_.distance * from_.per_delta;
+    if constexpr (piece != Piece::inside) {
+      // The last cell ends at the horizon, beyond which a neighbor that ties with it may stand; all that follow are
+      // empty.
+      const Choice has_next = at_most(next_distance, from_.inside);
+      z = select(has_next, min(z, spread(1.0)), spread(1.0));
+      lanes_ = bits(has_next);
     }
-  };
-  if (K::breakpoint < 1.0 && all_at_most(spread(K::breakpoint), z_before)) {
-    masked.template operator()<Piece::outside>();
+    const Lanes moment_up_to = within.template operator()<piece>(z);
+    const Lanes moment = moment_up_to - moment_before_;
+    moment_before_ = moment_up_to;
+    distance_before_ = neighbor_.distance;
+    neighbor_ = {neighbor_.k + 1, next, next_distance};
+    return moment;
+  }
+
+ private:
+  ACSTUDY_ALWAYS_INLINE inline Lanes load_next() const { return load(x_ - s * (neighbor_.k + 1)); }
+  ACSTUDY_ALWAYS_INLINE inline Lanes distance_of(Lanes neighbor) const {
+    return s > 0 ? from_.x - neighbor : neighbor - from_.x;
+  }
+
+  const double* x_;
+  const Viewpoint& from_;
+  unsigned counted_, lanes_ = all_bits;
+  Neighbor neighbor_;
+  Lanes distance_before_ = {}, moment_before_ = {};
+};
+
+/// Calls add<piece>(side), which has to step, for all neighbors on each side. Sides go in step as far as both have
+/// neighbors.
+template <class K, class Add, class... Sides>
+ACSTUDY_ALWAYS_INLINE inline void walk(const Add& add, Sides&... sides) {
+  const auto each = [&]<Piece piece>() ACSTUDY_ALWAYS_INLINE { (add.template operator()<piece>(sides), ...); };
+  while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<Piece::inside>();
+  if constexpr (K::breakpoint < 1.0) {
+    // Where few neighbors are inside, few are outside, and a loop of their own costs more than it saves.
+    const double outside = ((sides.neighbor().k > 4) && ...) ? K::breakpoint : 2.0;
+    while ((sides.goes_on() && ...) && !(sides.begins_beyond(outside) && ...)) each.template operator()<Piece::any>();
+    while ((sides.goes_on() && ...)) each.template operator()<Piece::outside>();
   } else {
-    masked.template operator()<Piece::any>();
+    while ((sides.goes_on() && ...)) each.template operator()<Piece::any>();
   }
-  return outermost;
+  const auto rest = [&](auto& side) ACSTUDY_ALWAYS_INLINE {
+    while (side.goes_on()) add.template operator()<Piece::any>(side);
+  };
+  if constexpr (sizeof...(sides) > 1) (rest(sides), ...);
 }
 
 }  // namespace ACSTUDY_ISA

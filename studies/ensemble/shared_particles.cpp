@@ -58,25 +58,19 @@ VelocitySeries::VelocitySeries(const Scene& scene) {
 
 std::optional<MidpointModes> midpoint_modes(const VelocitySeries& velocity) {
   if (!velocity.c || !velocity.b) return std::nullopt;
-  const TrigonometricSeries &c = *velocity.c, &b = *velocity.b;
   MidpointModes modes;
-  modes.c_hat.constant = c.constant - b.constant;
-  modes.b.constant = b.constant;
-  const auto at = [](const std::vector<double>& values, std::size_t i) { return i < values.size() ? values[i] : 0.0; };
-  for (const bool of_b : {true, false}) {
-    for (std::size_t i = 0; i < std::max(c.highest(), b.highest()); ++i) {
-      const double c_cosine = at(c.cosine, i), c_sine = at(c.sine, i);
-      const double b_cosine = at(b.cosine, i), b_sine = at(b.sine, i);
-      const bool in_b = b_cosine != 0.0 || b_sine != 0.0, in_c = c_cosine != 0.0 || c_sine != 0.0;
-      if (in_b != of_b || !(in_b || in_c)) continue;
-      const std::size_t k = modes.number.size();
-      if (k == most_modes) return std::nullopt;
-      modes.number.push_back(static_cast<int>(i) + 1);
-      modes.in_b += in_b ? 1 : 0;
-      modes.c_hat.cosine[k] = c_cosine - b_cosine;
-      modes.c_hat.sine[k] = c_sine - b_sine;
-      modes.b.cosine[k] = b_cosine;
-      modes.b.sine[k] = b_sine;
+  for (auto [series, field] : {std::pair(&*velocity.c, &modes.c), std::pair(&*velocity.b, &modes.b)}) {
+    field->constant = series->constant;
+    for (std::size_t i = 0; i < series->highest(); ++i) {
+      if (series->cosine[i] == 0.0 && series->sine[i] == 0.0) continue;
+      const int n = static_cast<int>(i) + 1;
+      const auto mode = std::find(modes.number.begin(), modes.number.end(), n) - modes.number.begin();
+      if (mode == most_modes) return std::nullopt;
+      if (mode == std::ssize(modes.number)) modes.number.push_back(n);
+      field->mode[field->modes] = static_cast<int>(mode);
+      field->cosine[field->modes] = series->cosine[i];
+      field->sine[field->modes] = series->sine[i];
+      ++field->modes;
     }
   }
   return modes;

@@ -21,11 +21,10 @@ struct VelocitySeries {
   explicit VelocitySeries(const Scene& scene);
 };
 
-/// The modes that c_hat and b have at midpoints.
+/// The modes that c and b have at midpoints.
 struct MidpointModes {
-  std::vector<int> number;  ///< n of each, those of b first; at most `most_modes`
-  int in_b = 0;             ///< how many are in b
-  SweepField c_hat, b;
+  std::vector<int> number;  ///< n of each, at most `most_modes`
+  SweepField c, b;
 };
 /// None where the velocities are no series of few enough modes.
 std::optional<MidpointModes> midpoint_modes(const VelocitySeries& velocity);

@@ -26,11 +26,11 @@ struct SweepGroup::Kernel {
             sweep.form = SweepKernel::Form::scalar;
           }
           sweep.kernel = &k;
-          sweep.first_moment = [](const void* itself, const Cell& cell) {
-            return static_cast<const K*>(itself)->first_moment(cell);
+          sweep.first_moment = [](const void* itself, double z) {
+            return static_cast<const K*>(itself)->first_moment(z);
           };
           if constexpr (IntegrableKernel<K>) {
-            sweep.mass = [](const void* itself, const Cell& cell) { return static_cast<const K*>(itself)->mass(cell); };
+            sweep.mass = [](const void* itself, double z) { return static_cast<const K*>(itself)->mass(z); };
           }
         },
         kernel);
@@ -115,26 +115,29 @@ void SweepGroup::sweep_moving(Team& team) {
   std::atomic<std::int64_t> pairs{0};
   const auto each_range = [&](std::ptrdiff_t grain, auto run) {
     team.each(count, grain, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
-      for (std::ptrdiff_t next; begin < end; begin = next) {
-        next = std::min(begin + grain, end);
-        SweepRange range = whole;
-        range.begin = begin;
-        range.end = next;
-        pairs += run(range);
-      }
+      SweepRange range = whole;
+      range.begin = begin;
+      range.end = end;
+      pairs += run(range);
     });
   };
   const auto run = [&](const auto& sweep, auto direct, auto far) {
     const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
-    if (far::far_pays(sweep, neighbors)) {
-      each_range(far::range_size(static_cast<std::ptrdiff_t>(neighbors)), [&](const SweepRange& range) {
-        thread_local far::Memory memory;
-        return far(range, sweep, memory);
-      });
-    } else {
+    if (!far::far_pays(sweep, neighbors)) {
       each_range(64, [&](const SweepRange& range) { return direct(range, sweep); });
+      return;
     }
+    const std::ptrdiff_t size = far::range_size(static_cast<std::ptrdiff_t>(neighbors));
+    each_range(size, [&](SweepRange range) {
+      thread_local far::Memory memory;
+      std::int64_t far_pairs = 0;
+      // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
+      for (const std::ptrdiff_t end = range.end; range.begin < end; range.begin = range.end) {
+        range.end = std::min(range.begin + size, end);
+        far_pairs += far(range, sweep, memory);
+      }
+      return far_pairs;
+    });
   };
   if (model_ == 1) {
     const UpwindSweep sweep{kernel_->sweep,
@@ -151,19 +154,18 @@ void SweepGroup::sweep_moving(Team& team) {
                          .mu = mu_,
                          .x = particles_.x.at(0),
                          .panels = particles_.panels ? particles_.panels->view() : SweepPanels{},
-                         .modes = static_cast<int>(modes.number.size()),
-                         .b_modes = modes.in_b,
                          .half_cosine = {},
                          .half_sine = {},
-                         .c_hat = modes.c_hat,
+                         .c = modes.c,
                          .b = modes.b,
                          .b_prime = begin_of(particles_.b_prime),
                          .local = local,
                          .nonlocal = nonlocal};
     // Modes that there are not have coefficients of zero; what they are read from is of no matter.
+    const int count_of_modes = static_cast<int>(modes.number.size());
     for (int k = 0; k < most_modes; ++k) {
-      sweep.half_cosine[k] = k < sweep.modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
-      sweep.half_sine[k] = k < sweep.modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
+      sweep.half_cosine[k] = k < count_of_modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
+      sweep.half_sine[k] = k < count_of_modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
     }
     run(sweep, sweeps().symmetric, far::far_sweeps().symmetric);
   }

@@ -352,34 +352,37 @@ void Expression::run(const Sweep& sweep) const {
   auto &value = workspace.value, &by_first = workspace.by_first, &by_second = workspace.by_second;
   auto& at = workspace.at;
 
+  // Of blocks only what is used is filled: a source is swept over a few samples in every step.
+  const std::size_t width = std::min(block_size, (sweep.count + vector_width - 1) / vector_width * vector_width);
+  const auto fill = [width](Block& block, double with) { std::fill_n(block.begin(), width, with); };
   const auto derive = [&](std::size_t i, unsigned direction, std::vector<Block>& derivative, std::size_t n) {
     const Node& node = tape_[i];
     if ((node.depends & direction) == 0) {
-      derivative[i].fill(0.0);
+      fill(derivative[i], 0.0);
     } else if (node.op == Op::variable) {
-      derivative[i].fill(1.0);
+      fill(derivative[i], 1.0);
     } else {
       sweep_derivatives(node, tape_, direction, at, derivative, at[i], derivative[i], n);
     }
   };
-  const auto spread = [](Block& block) { block.fill(block[0]); };
+  const auto spread = [&](Block& block) { fill(block, block[0]); };
 
   // Nodes that do not depend on x once per call, the others once per block of points.
   for (std::size_t i = 0; i < nodes; ++i) {
     const Node& node = tape_[i];
     at[i] = value[i].data();
     if (node.depends & 1U) {
-      if (first && node.op == Op::variable) by_first[i].fill(1.0);
-      if (second && node.op == Op::variable) by_second[i].fill(0.0);
+      if (first && node.op == Op::variable) fill(by_first[i], 1.0);
+      if (second && node.op == Op::variable) fill(by_second[i], 0.0);
       continue;
     }
-    if (node.op == Op::constant) value[i].fill(node.constant);
+    if (node.op == Op::constant) fill(value[i], node.constant);
     if (node.op == Op::variable && static_cast<std::size_t>(node.a) <= sweep.rest.size()) {
-      value[i].fill(*(sweep.rest.begin() + node.a - 1));
+      fill(value[i], *(sweep.rest.begin() + node.a - 1));
     }
     sweep_values(node, at, value[i].data(), vector_width);
     spread(value[i]);
-    if (first) by_first[i].fill(0.0);
+    if (first) fill(by_first[i], 0.0);
     if (second) {
       derive(i, 2U, by_second, vector_width);
       spread(by_second[i]);

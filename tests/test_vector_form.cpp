@@ -79,7 +79,7 @@ Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector
   Case twin = c;
   twin.scheme.nonlocal_divergence = !twin.scheme.nonlocal_divergence;
   if (with_twin) group.add(twin, of_twin);
-  particles.move(0.0, [&](const Piece& piece, Laps&) { group.prepare(piece); });
+  particles.move(0.0, [&](const Piece& piece, Laps& laps) { group.prepare(piece, laps); });
   group.rates(team, [](const Piece&) {});
   return {{its_values.rate.begin(), its_values.rate.begin() + std::ssize(x)}, group.work().pairs};
 }

@@ -91,10 +91,11 @@ class ParticleSource {
   void find_series(double t) {
     if (series_) series_->at(t);
   }
-  void evaluate_series(const SharedParticles& particles, const Piece& piece) {
+  void evaluate_series(const SharedParticles& particles, const Piece& piece, Laps& laps) {
     if (!series_) return;
     const auto c_hat = series_->sided() ? piece.of(particles.c_hat.values()) : std::span<const double>();
     series_->evaluate(particles.phases(piece), c_hat, piece.of(std::span(f_)));
+    laps.end_of(seconds);
   }
   void evaluate_directly(double t, const SharedParticles& particles) {
     if (series_) return;
@@ -280,14 +281,8 @@ class Ensemble {
     const bool first_stage = &stage == &first_.integrator->stages.front();
     each_source([&](ParticleSource& source) { timed(source.seconds, [&] { source.find_series(t); }); });
     particles_->move(t, [&](const Piece& piece, Laps& laps) {
-      each_source([&](ParticleSource& source) {
-        source.evaluate_series(*particles_, piece);
-        laps.end_of(source.seconds);
-      });
-      for (const auto& group : groups_) {
-        group->prepare(piece);
-        laps.end_of(group->seconds);
-      }
+      each_source([&](ParticleSource& source) { source.evaluate_series(*particles_, piece, laps); });
+      for (const auto& group : groups_) group->prepare(piece, laps);
     });
     watch_bounds(step.dt);
     each_source(

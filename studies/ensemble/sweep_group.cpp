@@ -84,12 +84,13 @@ void SweepGroup::remove(const SweptValues& values) {
   if (nonlocal_ == &values) nonlocal_ = nullptr;
 }
 
-void SweepGroup::prepare(const Piece& piece) {
+void SweepGroup::prepare(const Piece& piece, Laps& laps) {
   if (standing_ || model_ != 1) return;
   for (SweptValues* values : {local_, nonlocal_}) {
     if (values == nullptr) continue;
     product(particles_.c_hat.at(piece.begin), values->u.at(piece.begin), piece.of(values->flux.values()));
   }
+  laps.end_of(seconds);
 }
 
 void SweepGroup::rates(Team& team, const AndThen& and_then) {

@@ -38,7 +38,7 @@ class SweepGroup {
   bool empty() const { return local_ == nullptr && nonlocal_ == nullptr; }
 
   /// What rates(), called after it, needs to be known of all particles first: the fluxes of Model I.
-  void prepare(const Piece& piece);
+  void prepare(const Piece& piece, Laps& laps);
 
   /// Called with a piece of particles as soon as their rates are known, while others' are not.
   /// It may change no u that the group sees.

@@ -174,10 +174,12 @@ using Block = std::array<double, block_size>;
 /// Values and requested derivatives of every node for one block of points.
 struct Workspace {
   std::vector<Block> value, by_first, by_second;
+  std::vector<const double*> at;  ///< where the values of each node are: here or with fixed points
 };
 
-ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<Block>& value, Block& v, std::size_t n) {
-  const Block &a = value[node.a], &b = value[node.b];
+ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<const double*>& at, double* v,
+                                        std::size_t n) {
+  const double *const a = at[node.a], *const b = at[node.b];
   const auto each = [&](auto&& f) {
     for (std::size_t i = 0; i < n; ++i) v[i] = f(i);
   };
@@ -235,9 +237,9 @@ ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<Bloc
 /// d = derivative of the node, from the derivatives of its operands; the values are already there. A constant operand
 /// is skipped rather than multiplied by zero, so that x^2 at x = 0 never meets log(0).
 ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction,
-                                             const std::vector<Block>& value, const std::vector<Block>& derivative,
-                                             const Block& v, Block& d, std::size_t n) {
-  const Block &a = value[node.a], &b = value[node.b];
+                                             const std::vector<const double*>& at, const std::vector<Block>& derivative,
+                                             const double* v, Block& d, std::size_t n) {
+  const double *const a = at[node.a], *const b = at[node.b];
   const Block &da = derivative[node.a], &db = derivative[node.b];
   const bool varies_a = (tape[node.a].depends & direction) != 0, varies_b = (tape[node.b].depends & direction) != 0;
   const auto each = [&](auto&& f) {
@@ -301,18 +303,18 @@ ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector
 }  // namespace
 
 Expression::FixedPoints::FixedPoints(const Expression& expression, std::span<const double> x)
-    : x_(x.begin(), x.end()), values_(expression.tape_.size()) {
+    : values_(expression.tape_.size()) {
   std::vector<bool> needed(expression.tape_.size());
   for (std::size_t i = 0; i <= expression.result_; ++i) {
     const Node& node = expression.tape_[i];
     const bool at_end = i == expression.result_ && node.depends == 1U;
     if (at_end) needed[i] = true;
-    if (node.depends <= 1U) continue;
+    if (node.depends <= 1U || node.op == Op::variable) continue;
     needed[node.a] = needed[node.b] = true;
   }
   Expression part = expression;
   for (std::size_t i = 0; i < needed.size(); ++i) {
-    if (!needed[i] || expression.tape_[i].depends != 1U || expression.tape_[i].op == Op::variable) continue;
+    if (!needed[i] || expression.tape_[i].depends != 1U) continue;
     values_[i].resize(x.size());
     part.result_ = i;
     part.evaluate(x, {}, {values_[i], {}, {}});
@@ -321,83 +323,126 @@ Expression::FixedPoints::FixedPoints(const Expression& expression, std::span<con
 
 void Expression::evaluate(const FixedPoints& points, std::size_t begin, std::initializer_list<double> rest,
                           std::span<double> value) const {
-  sweep({points.x_.data() + begin, value.size()}, &points, begin, rest, {value, {}, {}});
+  run({.count = value.size(), .fixed = &points, .begin = begin, .rest = rest, .values = {{result_, value}}});
+}
+
+void Expression::evaluate(const FixedPoints& points, Angle angle, std::size_t begin, std::initializer_list<double> rest,
+                          std::span<double> p, std::span<double> q) const {
+  run({.count = p.size(), .fixed = &points, .begin = begin, .rest = rest, .values = {{angle.p, p}, {angle.q, q}}});
 }
 
 void Expression::evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const {
-  sweep(x, nullptr, 0, rest, out);
+  run({.count = x.size(),
+       .x = x.data(),
+       .rest = rest,
+       .values = {{result_, out.value}},
+       .by_first = out.by_first,
+       .by_second = out.by_second});
 }
 
-void Expression::sweep(std::span<const double> x, const FixedPoints* fixed, std::size_t first_point,
-                       std::initializer_list<double> rest, const Request& out) const {
+void Expression::run(const Sweep& sweep) const {
   thread_local Workspace workspace;
-  const bool first = !out.by_first.empty(), second = !out.by_second.empty();
-  const std::size_t nodes = result_ + 1;
+  const bool first = !sweep.by_first.empty(), second = !sweep.by_second.empty();
+  std::size_t nodes = 0;
+  for (const Sweep::Value& wanted : sweep.values) nodes = std::max(nodes, wanted.node + 1);
   if (workspace.value.size() < nodes) workspace.value.resize(nodes);
   if (first && workspace.by_first.size() < nodes) workspace.by_first.resize(nodes);
   if (second && workspace.by_second.size() < nodes) workspace.by_second.resize(nodes);
+  if (workspace.at.size() < nodes) workspace.at.resize(nodes);
   auto &value = workspace.value, &by_first = workspace.by_first, &by_second = workspace.by_second;
+  auto& at = workspace.at;
 
+  // Of blocks only what is used is filled: a source is swept over a few samples in every step.
+  const std::size_t width = std::min(block_size, (sweep.count + vector_width - 1) / vector_width * vector_width);
+  const auto fill = [width](Block& block, double with) { std::fill_n(block.begin(), width, with); };
   const auto derive = [&](std::size_t i, unsigned direction, std::vector<Block>& derivative, std::size_t n) {
     const Node& node = tape_[i];
     if ((node.depends & direction) == 0) {
-      derivative[i].fill(0.0);
+      fill(derivative[i], 0.0);
     } else if (node.op == Op::variable) {
-      derivative[i].fill(1.0);
+      fill(derivative[i], 1.0);
     } else {
-      sweep_derivatives(node, tape_, direction, value, derivative, value[i], derivative[i], n);
+      sweep_derivatives(node, tape_, direction, at, derivative, at[i], derivative[i], n);
     }
   };
-  const auto spread = [](Block& block) { block.fill(block[0]); };
+  const auto spread = [&](Block& block) { fill(block, block[0]); };
 
   // Nodes that do not depend on x once per call, the others once per block of points.
   for (std::size_t i = 0; i < nodes; ++i) {
     const Node& node = tape_[i];
+    at[i] = value[i].data();
     if (node.depends & 1U) {
-      if (first && node.op == Op::variable) by_first[i].fill(1.0);
-      if (second && node.op == Op::variable) by_second[i].fill(0.0);
+      if (first && node.op == Op::variable) fill(by_first[i], 1.0);
+      if (second && node.op == Op::variable) fill(by_second[i], 0.0);
       continue;
     }
-    if (node.op == Op::constant) value[i].fill(node.constant);
-    if (node.op == Op::variable && static_cast<std::size_t>(node.a) <= rest.size()) {
-      value[i].fill(*(rest.begin() + node.a - 1));
+    if (node.op == Op::constant) fill(value[i], node.constant);
+    if (node.op == Op::variable && static_cast<std::size_t>(node.a) <= sweep.rest.size()) {
+      fill(value[i], *(sweep.rest.begin() + node.a - 1));
     }
-    sweep_values(node, value, value[i], vector_width);
+    sweep_values(node, at, value[i].data(), vector_width);
     spread(value[i]);
-    if (first) by_first[i].fill(0.0);
+    if (first) fill(by_first[i], 0.0);
     if (second) {
       derive(i, 2U, by_second, vector_width);
       spread(by_second[i]);
     }
   }
 
-  for (std::size_t begin = 0; begin < x.size(); begin += block_size) {
-    const std::size_t here = std::min(block_size, x.size() - begin);
+  for (std::size_t begin = 0; begin < sweep.count; begin += block_size) {
+    const std::size_t here = std::min(block_size, sweep.count - begin);
     // Whole vectors only: a remainder in scalar arithmetic would make f(x) depend on where in the array x stands.
     const std::size_t n = (here + vector_width - 1) / vector_width * vector_width;
+    const auto known = [&](std::size_t i, const double* values) {
+      at[i] = values;
+      if (here == n) return;
+      std::copy_n(values, here, value[i].begin());
+      std::fill(value[i].begin() + here, value[i].begin() + n, values[0]);
+      at[i] = value[i].data();
+    };
     for (std::size_t i = 0; i < nodes; ++i) {
       const Node& node = tape_[i];
       if ((node.depends & 1U) == 0) continue;
-      if (node.op == Op::variable) {
-        std::copy_n(x.begin() + begin, here, value[i].begin());
-        std::fill(value[i].begin() + here, value[i].begin() + n, x[begin]);
-        continue;
+      if (sweep.fixed != nullptr && node.depends == 1U) {
+        const std::vector<double>& values = sweep.fixed->values_[i];
+        if (!values.empty()) known(i, values.data() + sweep.begin + begin);
+      } else if (node.op == Op::variable) {
+        known(i, sweep.x + begin);
+      } else {
+        sweep_values(node, at, value[i].data(), n);
+        if (first) derive(i, 1U, by_first, n);
+        if (second) derive(i, 2U, by_second, n);
       }
-      if (fixed != nullptr && node.depends == 1U) {
-        if (fixed->values_[i].empty()) continue;
-        const double* const known = fixed->values_[i].data() + first_point + begin;
-        std::copy_n(known, here, value[i].begin());
-        std::fill(value[i].begin() + here, value[i].begin() + n, known[0]);
-        continue;
-      }
-      sweep_values(node, value, value[i], n);
-      if (first) derive(i, 1U, by_first, n);
-      if (second) derive(i, 2U, by_second, n);
     }
-    if (!out.value.empty()) std::copy_n(value[result_].begin(), here, out.value.begin() + begin);
-    if (first) std::copy_n(by_first[result_].begin(), here, out.by_first.begin() + begin);
-    if (second) std::copy_n(by_second[result_].begin(), here, out.by_second.begin() + begin);
+    for (const auto& [node, out] : sweep.values) {
+      if (!out.empty()) std::copy_n(at[node], here, out.begin() + begin);
+    }
+    if (first) std::copy_n(by_first[result_].begin(), here, sweep.by_first.begin() + begin);
+    if (second) std::copy_n(by_second[result_].begin(), here, sweep.by_second.begin() + begin);
   }
+}
+
+std::optional<Expression::Angle> Expression::angle(double factor) const {
+  std::size_t i = result_;
+  const auto constant = [&](int node) { return tape_[node].op == Op::constant; };
+  for (;;) {
+    const Node& node = tape_[i];
+    if (node.op == Op::multiply && constant(node.a)) {
+      factor /= tape_[node.a].constant;
+      i = node.b;
+    } else if (node.op == Op::multiply && constant(node.b)) {
+      factor /= tape_[node.b].constant;
+      i = node.a;
+    } else if (node.op == Op::divide && constant(node.b)) {
+      factor *= tape_[node.b].constant;
+      i = node.a;
+    } else {
+      break;
+    }
+  }
+  const Node& node = tape_[i];
+  if (node.op != Op::atan2 || !(std::abs(factor - 1.0) <= 1e-15)) return std::nullopt;
+  return Angle{static_cast<std::size_t>(node.a), static_cast<std::size_t>(node.b)};
 }
 
 double Expression::operator()(std::initializer_list<double> variables) const {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -49,12 +50,21 @@ class Expression {
   /// Sweeps over points x of the first variable, the others (`rest`) being the same for all points.
   void evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const;
 
+  /// The operands of an expression that is factor * atan2(p, q), if it is one.
+  struct Angle {
+    std::size_t p, q;  ///< nodes
+  };
+  std::optional<Angle> angle(double factor) const;
+
   /// Points x that stay, with all that can be computed of an expression from x alone. Copies the points.
   class FixedPoints;
 
   /// The value at fixed points from number `begin` on, the variables after the first given.
   void evaluate(const FixedPoints& points, std::size_t begin, std::initializer_list<double> rest,
                 std::span<double> value) const;
+  /// The same for the operands of an angle.
+  void evaluate(const FixedPoints& points, Angle angle, std::size_t begin, std::initializer_list<double> rest,
+                std::span<double> p, std::span<double> q) const;
 
   /// Names of the functions that an expression may call.
   static std::vector<std::string> function_names();
@@ -94,8 +104,21 @@ class Expression {
 
  private:
   friend class FixedPoints;
-  void sweep(std::span<const double> x, const FixedPoints* fixed, std::size_t first, std::initializer_list<double> rest,
-             const Request& out) const;
+  /// What a sweep has to compute at `count` points, which begin at `x` or with number `begin` of fixed ones.
+  struct Sweep {
+    std::size_t count;
+    const double* x = nullptr;
+    const FixedPoints* fixed = nullptr;
+    std::size_t begin = 0;
+    std::initializer_list<double> rest;
+    struct Value {
+      std::size_t node;
+      std::span<double> out;  ///< empty: not wanted
+    };
+    std::initializer_list<Value> values;
+    std::span<double> by_first = {}, by_second = {};  ///< of the result
+  };
+  void run(const Sweep& sweep) const;
 
   std::string text_;
   std::vector<Node> tape_;
@@ -108,7 +131,6 @@ class Expression::FixedPoints {
 
  private:
   friend class Expression;
-  std::vector<double> x_;
   std::vector<std::vector<double>> values_;  ///< of each node that depends on x alone and is used beyond that
 };
 

@@ -6,8 +6,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
+#include <tuple>
 
 #include "mms/gsl_status.hpp"
 
@@ -72,6 +75,22 @@ Rule averaged_atoms(const KernelProfile& kernel, std::size_t points, double powe
   return atoms;
 }
 
+/// The n-point Gauss rule of these atoms. Kept, for a study asks for the same few again and again, and each takes
+/// milliseconds.
+Rule averaged_rule(const KernelProfile& kernel, std::size_t points, double power) {
+  static std::mutex mutex;
+  static std::map<std::tuple<std::type_index, double, std::size_t, double>, Rule> known;
+  const std::tuple key(kernel.kind, kernel.origin_exponent, points, power);
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto rule = known.find(key); rule != known.end()) return rule->second;
+  }
+  const Rule rule = compress(averaged_atoms(kernel, points, power), points);
+  const std::lock_guard lock(mutex);
+  known.emplace(key, rule);
+  return rule;
+}
+
 }  // namespace
 
 Rule first_moment_rule(const KernelProfile& kernel, std::size_t points_per_piece) {
@@ -88,12 +107,8 @@ Rule first_moment_rule(const KernelProfile& kernel, std::size_t points_per_piece
   return rule;
 }
 
-Rule derivative_rule(const KernelProfile& kernel, std::size_t points) {
-  return compress(averaged_atoms(kernel, points, 0.0), points);
-}
+Rule derivative_rule(const KernelProfile& kernel, std::size_t points) { return averaged_rule(kernel, points, 0.0); }
 
-Rule viscous_rule(const KernelProfile& kernel, std::size_t points) {
-  return compress(averaged_atoms(kernel, points, 1.0), points);
-}
+Rule viscous_rule(const KernelProfile& kernel, std::size_t points) { return averaged_rule(kernel, points, 1.0); }
 
 }  // namespace acstudy

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <typeindex>
+#include <typeinfo>
 #include <vector>
 
 #include "solver/kernels.hpp"
@@ -22,11 +24,13 @@ struct KernelProfile {
   double origin_exponent;                      ///< a such that z^a eta(z) is smooth up to z = 0
   std::function<double(double)> regular_part;  ///< z^a eta(z), 0 <= z <= 1
   double breakpoint;                           ///< interior point where eta is not smooth, or 1
+  std::type_index kind;                        ///< kernels of one kind and origin_exponent are the same
 };
 
 template <Kernel K>
 KernelProfile profile(K kernel) {
-  return {kernel.origin_exponent(), [kernel](double z) { return kernel.regular_part(z); }, kernel.breakpoint()};
+  return {kernel.origin_exponent(), [kernel](double z) { return kernel.regular_part(z); }, kernel.breakpoint(),
+          typeid(K)};
 }
 
 /// A rule for int_0^1 f(z) z eta(z) dz, split at the kernel's breakpoints: Gauss-Jacobi on the piece at the origin,

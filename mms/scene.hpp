@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mms/expression.hpp"
+#include "mms/trigonometric.hpp"
 
 namespace acstudy {
 
@@ -100,11 +101,14 @@ class Trajectories {
   void at(double t, std::size_t begin, std::span<double> x) const {
     scene_.flow()->evaluate(*at_start_, begin, {t}, x);
   }
+  /// The same with their phases.
+  void at(double t, std::size_t begin, std::span<double> x, const PhasesOut& phases) const;
 
  private:
   const Scene& scene_;
-  std::vector<double> start_, x_;
+  std::vector<double> x_;                            ///< at time t_
   std::optional<Expression::FixedPoints> at_start_;  ///< of the flow in closed form
+  std::optional<Expression::Angle> angle_;           ///< of a flow that is period/pi atan2(p, q)
   double t_ = 0.0;
 };
 

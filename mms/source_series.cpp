@@ -22,12 +22,15 @@ void SourceSeries::at(double t) {
   }
 }
 
-void SourceSeries::evaluate(const HalfPhases& particles, std::span<const double> c_hat, std::span<double> out,
-                            std::span<double> scratch) const {
-  sides_.front().series.evaluate(particles, out);
-  if (!sided()) return;
-  sides_.back().series.evaluate(particles, scratch);
-  for (std::size_t j = 0; j < out.size(); ++j) out[j] = c_hat[j] > 0.0 ? out[j] : scratch[j];
+void SourceSeries::evaluate(const Phases& particles, std::span<const double> c_hat, std::span<double> out) const {
+  if (!sided()) return sides_.front().series.evaluate(particles, out);
+  // Particles that look to the same side stand together.
+  for (std::size_t begin = 0, end = 0; begin < out.size(); begin = end) {
+    const bool left = c_hat[begin] > 0.0;
+    while (end < out.size() && (c_hat[end] > 0.0) == left) ++end;
+    const auto part = [&](auto values) { return values.subspan(begin, end - begin); };
+    sides_[left ? 0 : 1].series.evaluate({part(particles.cosine), part(particles.sine)}, part(out));
+  }
 }
 
 std::int64_t SourceSeries::quadrature_points() const {
@@ -44,7 +47,7 @@ std::optional<SourceSeries> SourceSeries::find(const Scene& scene, const MakeSou
   for (std::size_t i = 0; i < count; ++i) {
     x[i] = scene.period() * std::fmod(static_cast<double>(i) * std::numbers::phi, 1.0);
   }
-  half_phases(x, scene.period(), C, S);
+  phases(x, scene.period(), {C, S, {}, {}});
   std::vector<std::unique_ptr<Source>> direct;
   direct.push_back(make(Look::left));
   if (sided) direct.push_back(make(Look::right));

@@ -30,10 +30,8 @@ class SourceSeries {
   /// Computes the series at time t.
   void at(double t);
   /// f at particles given by their phases, at the time of `at`.
-  /// @param c_hat    relative velocity: particles with c_hat > 0 look left
-  /// @param scratch  as long as out
-  void evaluate(const HalfPhases& particles, std::span<const double> c_hat, std::span<double> out,
-                std::span<double> scratch) const;
+  /// @param c_hat  relative velocity: particles with c_hat > 0 look left; read only where the series is sided
+  void evaluate(const Phases& particles, std::span<const double> c_hat, std::span<double> out) const;
 
   bool sided() const { return sides_.size() == 2; }
   std::size_t samples() const { return samples_.x().size(); }

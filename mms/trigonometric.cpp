@@ -12,33 +12,74 @@ namespace acstudy {
 
 namespace {
 
-constexpr std::size_t block_size = 256;
-using Block = std::array<double, block_size>;
-
-/// @pre n is a multiple of vector_width, so that every element takes the same path
-ACSTUDY_VECTOR_CLONES void sweep_phases(Block& cosine, Block& sine, std::size_t n) {
-  // cosine holds w x/2 at first
-  for (std::size_t i = 0; i < n; ++i) sine[i] = std::sin(cosine[i]);
-  for (std::size_t i = 0; i < n; ++i) cosine[i] = std::cos(cosine[i]);
+/// cosine holds x at first.  @pre n is a multiple of vector_width, so that every element takes the same path
+ACSTUDY_VECTOR_CLONES void sweep_phases(double w, double* cosine, double* sine, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) sine[i] = std::sin(w * cosine[i]);
+  for (std::size_t i = 0; i < n; ++i) cosine[i] = std::cos(w * cosine[i]);
 }
 
-constexpr std::size_t whole_vectors(std::size_t n) { return (n + vector_width - 1) / vector_width * vector_width; }
+/// cosine and sine hold q and p at first.  @pre as above
+ACSTUDY_VECTOR_CLONES void sweep_angles(double scale, double* cosine, double* sine, double* x, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) x[i] = scale * std::atan2(sine[i], cosine[i]);
+}
 
-}  // namespace
-
-void half_phases(std::span<const double> x, double period, std::span<double> cosine, std::span<double> sine) {
-  const double half = std::numbers::pi / period;
-  Block C{}, S;
-  for (std::size_t begin = 0; begin < x.size(); begin += block_size) {
-    const std::size_t here = std::min(block_size, x.size() - begin);
-    for (std::size_t i = 0; i < here; ++i) C[i] = half * x[begin + i];
-    sweep_phases(C, S, whole_vectors(here));
-    std::copy_n(C.begin(), here, cosine.begin() + begin);
-    std::copy_n(S.begin(), here, sine.begin() + begin);
+ACSTUDY_VECTOR_CLONES void normalize(double* cosine, double* sine, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double per_length = 1.0 / std::sqrt(cosine[i] * cosine[i] + sine[i] * sine[i]);
+    cosine[i] *= per_length;
+    sine[i] *= per_length;
   }
 }
 
-void TrigonometricSeries::evaluate(const HalfPhases& points, std::span<double> out) const {
+/// cos 2a = (q^2 - p^2)/(p^2 + q^2), sin 2a = 2 p q/(p^2 + q^2) of a = atan2(p, q).
+ACSTUDY_VECTOR_CLONES void normalize_twice(double* cosine, double* sine, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const double q = cosine[i], p = sine[i], per_square = 1.0 / (q * q + p * p);
+    cosine[i] = (q - p) * (q + p) * per_square;
+    sine[i] = 2.0 * p * q * per_square;
+  }
+}
+
+/// Calls sweep(arrays..., n) for whole vectors, what is left of the arrays among them.
+template <class Sweep, class... Arrays>
+void in_whole_vectors(Sweep&& sweep, std::size_t size, Arrays*... arrays) {
+  const std::size_t whole = size / vector_width * vector_width, rest = size - whole;
+  sweep(arrays..., whole);
+  if (rest == 0) return;
+  const auto with_rest = [&](auto... last) {
+    (std::copy_n(arrays + whole, rest, last.begin()), ...);
+    sweep(last.data()..., vector_width);
+    (std::copy_n(last.begin(), rest, arrays + whole), ...);
+  };
+  with_rest(std::array<Arrays, vector_width>{}...);
+}
+
+}  // namespace
+
+void phases(std::span<const double> x, double period, const PhasesOut& out) {
+  const auto fill = [&](double w, std::span<double> cosine, std::span<double> sine) {
+    if (cosine.empty()) return;
+    std::copy(x.begin(), x.end(), cosine.begin());
+    in_whole_vectors([w](auto... arrays_and_n) { sweep_phases(w, arrays_and_n...); }, x.size(), cosine.data(),
+                     sine.data());
+  };
+  fill(2.0 * std::numbers::pi / period, out.cosine, out.sine);
+  fill(std::numbers::pi / period, out.half_cosine, out.half_sine);
+}
+
+void phases_of_angles(double period, std::span<double> x, const PhasesOut& out) {
+  double *const C = out.cosine.data(), *const S = out.sine.data();
+  in_whole_vectors([&](auto... arrays_and_n) { sweep_angles(period / std::numbers::pi, arrays_and_n...); }, x.size(), C,
+                   S, x.data());
+  if (!out.half_cosine.empty()) {
+    std::copy_n(C, x.size(), out.half_cosine.begin());
+    std::copy_n(S, x.size(), out.half_sine.begin());
+    normalize(out.half_cosine.data(), out.half_sine.data(), x.size());
+  }
+  normalize_twice(C, S, x.size());
+}
+
+void TrigonometricSeries::evaluate(const Phases& points, std::span<double> out) const {
   sweeps().series({constant, cosine.data(), sine.data(), std::ssize(cosine)}, points.cosine.data(), points.sine.data(),
                   out.data(), std::ssize(out));
 }
@@ -99,7 +140,7 @@ std::optional<TrigonometricSeries> trigonometric_series(const Field& field, doub
   std::vector<double> x(count), exact(count), approximate(count), C(count), S(count);
   for (std::size_t i = 0; i < count; ++i) x[i] = period * std::fmod(static_cast<double>(i) * std::numbers::phi, 1.0);
   field(x, exact);
-  half_phases(x, period, C, S);
+  phases(x, period, {C, S, {}, {}});
   series.evaluate({C, S}, approximate);
   for (std::size_t i = 0; i < count; ++i) {
     // not (gap <= ...), so that NaN refuses

@@ -12,14 +12,23 @@
 
 namespace acstudy {
 
-/// The phases w x/2 of points, w = 2 pi/period, by their cosine and sine. Midpoints of two points have their sum as
-/// phase w x, which is why halves are kept.
-struct HalfPhases {
+/// The phases w x of points, w = 2 pi/period, by their cosine and sine.
+struct Phases {
   std::span<const double> cosine, sine;
 };
 
-/// Fills cosine and sine of w x/2 for all points.
-void half_phases(std::span<const double> x, double period, std::span<double> cosine, std::span<double> sine);
+/// Where phases go, and halves of them, unless these are empty. Midpoints of two points have the sum of their halves as
+/// phase.
+struct PhasesOut {
+  std::span<double> cosine, sine, half_cosine, half_sine;
+};
+
+/// Fills the phases of all points.
+void phases(std::span<const double> x, double period, const PhasesOut& out);
+
+/// Fills x = period/pi atan2(p, q) for all points and their phases, w x/2 = atan2(p, q), by arithmetic alone.
+/// @param out  its cosine and sine hold q and p at first
+void phases_of_angles(double period, std::span<double> x, const PhasesOut& out);
 
 /// a_0 + sum_n cosine_n cos(n w x) + sine_n sin(n w x), n = 1 .. highest.
 struct TrigonometricSeries {
@@ -28,7 +37,7 @@ struct TrigonometricSeries {
 
   std::size_t highest() const { return cosine.size(); }
   /// The series at points given by their phases.
-  void evaluate(const HalfPhases& points, std::span<double> out) const;
+  void evaluate(const Phases& points, std::span<double> out) const;
 };
 
 /// Equally spaced samples of a period and the series through them.

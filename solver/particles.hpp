@@ -5,11 +5,35 @@
 
 #include <cassert>
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
+#include <memory>
+#include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace acstudy {
+
+/// Memory that reads as zero and is not touched before it is used: of large arrays, most of the room for ghosts never
+/// is.
+template <class T>
+struct UntouchedZeros {
+  using value_type = T;
+  T* allocate(std::size_t count) {
+    if (void* const memory = std::calloc(count, sizeof(T))) return static_cast<T*>(memory);
+    throw std::bad_alloc();
+  }
+  void deallocate(T* memory, std::size_t) { std::free(memory); }
+  void construct(T*) {}
+  template <class... Values>
+  void construct(T* place, Values&&... values) {
+    std::construct_at(place, std::forward<Values>(values)...);
+  }
+  bool operator==(const UntouchedZeros&) const = default;
+};
+
+using ZeroedVector = std::vector<double, UntouchedZeros<double>>;
 
 /// Values at the particles j = 0 .. N-1, readable at j - k and j + k after `wrap(k)`.
 ///
@@ -50,14 +74,14 @@ class PeriodicArray {
   void wrap_with(std::ptrdiff_t reach, Later later, Earlier earlier) {
     const std::ptrdiff_t n = std::ssize(*this);
     assert(reach <= margin());
-    for (std::ptrdiff_t k = 0; k < reach; ++k) {
-      (*this)[n + k] = later((*this)[k]);
-      (*this)[-1 - k] = earlier((*this)[n - 1 - k]);
-    }
+    // One end after the other: either is a plain loop over consecutive memory.
+    double* const first = values_.data() + margin_;
+    for (std::ptrdiff_t k = 0; k < reach; ++k) first[n + k] = later(first[k]);
+    for (std::ptrdiff_t k = 1; k <= reach; ++k) first[-k] = earlier(first[n - k]);
   }
 
   std::size_t size_, margin_;
-  std::vector<double> values_;
+  ZeroedVector values_;
 };
 
 /// How many neighbors each particle sees: l_j to its left and r_j to its right, each at least one.

@@ -35,20 +35,11 @@ struct Batch {
   double work = 0.0;
 };
 
-/// Puts jobs together whose cases share their particles, but no more into a batch than leaves every worker something to
-/// do; cases that share their sweeps stay together. Heaviest batch first.
-std::vector<Batch> batches_of(const std::vector<Job>& jobs, int workers) {
-  std::map<std::pair<std::string, std::string>, Batch> sweeps;  // by what is shared: particles, then sweeps
-  double total = 0.0;
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const Case& c = *jobs[i].c;
-    const bool vector = runs_in_vector_form(c);
-    Batch& batch = sweeps[vector ? std::pair(ensemble_key(c), sweep_key(c)) : std::pair(c.key(), std::string())];
-    batch.jobs.push_back(i);
-    batch.work += c.estimated_work();
-    total += c.estimated_work();
-  }
-  const double most = workers == 1 ? total : total / (4.0 * workers);
+/// Jobs that share their sweeps, by what they share: particles, then sweeps.
+using Sweeps = std::map<std::pair<std::string, std::string>, Batch>;
+
+/// Puts sweeps on the same particles together, up to `most` work a batch. Heaviest batch first.
+std::vector<Batch> batches_up_to(double most, const Sweeps& sweeps) {
   std::vector<Batch> batches;
   const std::string* particles = nullptr;
   for (const auto& [key, sweep] : sweeps) {
@@ -60,6 +51,33 @@ std::vector<Batch> batches_of(const std::vector<Job>& jobs, int workers) {
   }
   std::stable_sort(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) { return a.work > b.work; });
   return batches;
+}
+
+/// The most work that falls to a worker, if whoever is done takes the next batch.
+double longest_share(const std::vector<Batch>& batches, int workers) {
+  std::vector<double> shares(static_cast<std::size_t>(workers));
+  for (const Batch& batch : batches) *std::min_element(shares.begin(), shares.end()) += batch.work;
+  return *std::max_element(shares.begin(), shares.end());
+}
+
+/// Batches as large as they can be, so that as little as possible is computed twice, and small enough for the workers
+/// to end at about the same time.
+std::vector<Batch> batches_of(const std::vector<Job>& jobs, int workers) {
+  Sweeps sweeps;
+  double total = 0.0;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const Case& c = *jobs[i].c;
+    const bool vector = runs_in_vector_form(c);
+    Batch& batch = sweeps[vector ? std::pair(ensemble_key(c), sweep_key(c)) : std::pair(c.key(), std::string())];
+    batch.jobs.push_back(i);
+    batch.work += c.estimated_work();
+    total += c.estimated_work();
+  }
+  for (const double parts : {1.0, 2.0}) {
+    auto batches = batches_up_to(total / (parts * workers), sweeps);
+    if (longest_share(batches, workers) <= 1.03 * total / workers) return batches;
+  }
+  return batches_up_to(total / (4.0 * workers), sweeps);
 }
 
 /// A line on the terminal that is rewritten; silent where stderr is none.

@@ -62,11 +62,18 @@ class GrowthWatch {
 
   /// @param u  at the start
   explicit GrowthWatch(std::span<const double> u);
+  /// For states that the caller keeps.  @param largest  |u| at the start
+  explicit GrowthWatch(double largest) : exact_(largest) {}
 
   /// Looks at the state after a step; false if the run must end.
   /// @param exact_size  exact_size() is the largest |u| of the exact solution at this time; called on suspicion only
   template <class ExactSize>
   bool makes_sense(std::int64_t n, double t, std::span<double> u, ExactSize&& exact_size);
+
+  /// The same for a state of which the largest |u| is known, NaN or infinite if one is not finite. It is not kept:
+  /// where the run must end, the last finite state is the caller's to put back.
+  template <class ExactSize>
+  bool makes_sense(std::int64_t n, double t, std::span<const double> u, double largest, ExactSize&& exact_size);
 
   /// Puts the last finite state back.
   void restore(std::span<double> u) const { std::copy(last_u_.begin(), last_u_.end(), u.begin()); }
@@ -89,21 +96,31 @@ class GrowthWatch {
 };
 
 template <class ExactSize>
-bool GrowthWatch::makes_sense(std::int64_t n, double t, std::span<double> u, ExactSize&& exact_size) {
-  const double now = size(u);
-  if (!std::isfinite(now)) {
+bool GrowthWatch::makes_sense(std::int64_t n, double t, std::span<const double> u, double largest,
+                              ExactSize&& exact_size) {
+  if (!std::isfinite(largest)) {
     give_up(n, t, u, n - 1, last_t_, "is no longer finite");
-    restore(u);
     return false;
   }
-  if (now > most * exact_) exact_ = std::max(exact_, exact_size());
-  if (now > most * exact_) {
-    give_up(n, t, u, n, t, fmt::format("has grown to {:.3g}, the exact one to {:.3g},", now, exact_));
+  if (largest > most * exact_) exact_ = std::max(exact_, exact_size());
+  if (largest > most * exact_) {
+    give_up(n, t, u, n, t, fmt::format("has grown to {:.3g}, the exact one to {:.3g},", largest, exact_));
     return false;
   }
-  std::copy(u.begin(), u.end(), last_u_.begin());
   last_t_ = t;
   return true;
+}
+
+template <class ExactSize>
+bool GrowthWatch::makes_sense(std::int64_t n, double t, std::span<double> u, ExactSize&& exact_size) {
+  const double now = size(u);
+  const bool makes_sense = this->makes_sense(n, t, u, now, exact_size);
+  if (!std::isfinite(now)) {
+    restore(u);
+  } else {
+    std::copy(u.begin(), u.end(), last_u_.begin());
+  }
+  return makes_sense;
 }
 
 }  // namespace acstudy

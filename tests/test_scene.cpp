@@ -93,6 +93,43 @@ TEST_CASE("the closed flow is the integrated one, forth and back in time") {
   CHECK_THAT(numerical.at(1.0)[32], WithinAbs(std::numbers::pi, 1e-14));
 }
 
+TEST_CASE("particles come with the phases of their positions, from pieces as from the whole") {
+  SceneText short_period = paper(), by_sine = paper(), translation = with("b", "1.5");
+  short_period.period = "1";
+  short_period.c = "cos(4*pi*x)/3";
+  short_period.b = "sin(2*pi*x)/(2*pi)";
+  short_period.u = "cos(2*pi*(x - t))";
+  short_period.flow = "atan2(sin(pi*x)*exp(t), cos(pi*x))/pi";
+  by_sine.flow = "x + 2*atan2((exp(t) - 1)*sin(x/2)*cos(x/2), cos(x/2)^2 + exp(t)*sin(x/2)^2)";
+  translation.flow = "x + 1.5*t";
+  for (const SceneText& text : {paper(), short_period, by_sine, translation}) {
+    CAPTURE(*text.flow);
+    const Scene scene(text);
+    CHECK(scene.flow()->angle(scene.period() / std::numbers::pi).has_value() == (text.flow->find('x') != 0));
+    constexpr std::size_t count = 301;
+    Trajectories trajectories(scene, uniform_positions(count, scene.period()));
+    std::vector<double> x(count), C(count), S(count), half_C(count), half_S(count);
+    const PhasesOut all{C, S, half_C, half_S};
+    trajectories.at(0.6, 0, x, all);
+    const auto expected = trajectories.at(0.6);
+    for (std::size_t j = 0; j < count; ++j) {
+      const double phase = 2.0 * std::numbers::pi * x[j] / scene.period();
+      CHECK_THAT(x[j], WithinAbs(expected[j], 4e-16 * scene.period()));
+      CHECK_THAT(C[j], WithinAbs(std::cos(phase), 4e-15));
+      CHECK_THAT(S[j], WithinAbs(std::sin(phase), 4e-15));
+      CHECK_THAT(half_C[j], WithinAbs(std::cos(0.5 * phase), 2e-15));
+      CHECK_THAT(half_S[j], WithinAbs(std::sin(0.5 * phase), 2e-15));
+    }
+    std::vector<double> part(71), part_C(71), part_S(71);
+    trajectories.at(0.6, 40, part, {part_C, part_S, {}, {}});
+    for (std::size_t j = 0; j < part.size(); ++j) {
+      CHECK(part[j] == x[40 + j]);
+      CHECK(part_C[j] == C[40 + j]);
+      CHECK(part_S[j] == S[40 + j]);
+    }
+  }
+}
+
 TEST_CASE("the integrated flow of constant b is a translation without wrapping") {
   const Scene scene(with("b", "1.5"));
   Trajectories trajectories(scene, {0.0, 1.0, 6.0});

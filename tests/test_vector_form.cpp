@@ -61,13 +61,18 @@ struct Swept {
 Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector<double>& u, bool with_twin,
                   int threads = 1) {
   Team team(threads);
-  SharedParticles particles(
-      *c.scene, x,
-      {.velocities = true, .b_prime = true, .midpoints = c.scheme.model == 2, .phases = true, .delta = c.delta}, team);
+  SharedParticles particles(*c.scene, x,
+                            {.c_hat = true,
+                             .c_and_b = true,
+                             .b_prime = true,
+                             .midpoints = c.scheme.model == 2,
+                             .phases = true,
+                             .delta = c.delta},
+                            team);
   particles.move(0.0);
   SweepGroup group(c, particles);
   const auto values = [&] {
-    SweptValues v{PeriodicArray(x.size()), PeriodicArray(x.size()), std::vector<double>(x.size() + 16)};
+    SweptValues v{PeriodicArray(x.size()), PeriodicArray(x.size()), ZeroedVector(x.size() + 16)};
     std::copy(u.begin(), u.end(), v.u.values().begin());
     return v;
   };
@@ -76,9 +81,9 @@ Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector
   Case twin = c;
   twin.scheme.nonlocal_divergence = !twin.scheme.nonlocal_divergence;
   if (with_twin) group.add(twin, of_twin);
-  group.rates(team);
-  its_values.rate.resize(x.size());
-  return {its_values.rate, group.work().pairs};
+  particles.move(0.0, [&](const Piece& piece, Laps& laps) { group.prepare(piece, laps); });
+  group.rates(team, [](const Piece&) {});
+  return {{its_values.rate.begin(), its_values.rate.begin() + std::ssize(x)}, group.work().pairs};
 }
 
 Swept readable_rates(const Case& c, const std::vector<double>& x, const std::vector<double>& u) {

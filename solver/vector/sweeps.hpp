@@ -117,8 +117,8 @@ struct Sweeps {
   /// rate = R u for blocks begin .. end - 1 of a BandedMatrix, u with ghosts.
   void (*banded)(const BandedMatrix::Block* blocks, const double* value, const double* u, double* rate,
                  std::ptrdiff_t begin, std::ptrdiff_t end);
-  /// The series at points given by cos(w x/2) and sin(w x/2).
-  void (*series)(const SweepSeries& series, const double* half_cosine, const double* half_sine, double* out,
+  /// The series at points given by cos(w x) and sin(w x).
+  void (*series)(const SweepSeries& series, const double* cosine, const double* sine, double* out,
                  std::ptrdiff_t count);
 };
 

@@ -65,20 +65,20 @@ class Upwind {
     };
     walk<K>(add, side);
     pairs_ += pairs;
-    const double scale = K::moment_scale;
-    return {sum.W * scale, sum.flux_local * scale, sum.b * scale, sum.flux_nonlocal * scale};
+    return sum;
   }
 
   /// (2.9) and (2.11) with the sums taken apart.
   void finish(std::ptrdiff_t j, Lanes s, const UpwindSums& sum) {
+    const Lanes scale = s * K::moment_scale;
     if constexpr (local) {
       const Lanes u = load(sweep_.local.u + j);
       store(sweep_.local.rate + j,
-            -load(sweep_.b_prime + j) * u - s * (load(sweep_.c_hat + j) * u * sum.W - sum.flux_local));
+            -load(sweep_.b_prime + j) * u - scale * (load(sweep_.c_hat + j) * u * sum.W - sum.flux_local));
     }
     if constexpr (nonlocal) {
       const Lanes u = load(sweep_.nonlocal.u + j);
-      store(sweep_.nonlocal.rate + j, -s * ((load(sweep_.c + j) * sum.W - sum.b) * u - sum.flux_nonlocal));
+      store(sweep_.nonlocal.rate + j, -scale * ((load(sweep_.c + j) * sum.W - sum.b) * u - sum.flux_nonlocal));
     }
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -56,70 +57,92 @@ std::string sweep_key(const Case& c) {
 
 namespace {
 
-/// u <- (1 - weight) u^n + weight (u + dt (rate + f))
-ACSTUDY_VECTOR_CLONES void apply_stage(double weight, double dt, const double* u_n, const double* rate, const double* f,
-                                       double* u, std::ptrdiff_t begin, std::ptrdiff_t end) {
-  if (weight == 1.0) {
-    for (std::ptrdiff_t j = begin; j < end; ++j) u[j] += dt * (rate[j] + f[j]);
-  } else {
-    for (std::ptrdiff_t j = begin; j < end; ++j) {
-      u[j] = (1.0 - weight) * u_n[j] + weight * (u[j] + dt * (rate[j] + f[j]));
-    }
+/// next = (1 - weight) u^n + weight (u + dt (rate + f)) at some particles.
+/// @return  the largest |next|; NaN if one is not finite
+ACSTUDY_VECTOR_CLONES double apply_stage(double weight, double dt, const double* u_n, const double* u,
+                                         const double* rate, const double* f, double* next, std::ptrdiff_t count) {
+  double largest = 0.0, sum = 0.0;
+#pragma omp simd reduction(max : largest) reduction(+ : sum)
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
+    const double value = (1.0 - weight) * u_n[j] + weight * (u[j] + dt * (rate[j] + f[j]));
+    next[j] = value;
+    largest = std::abs(value) > largest ? std::abs(value) : largest;
+    sum += 0.0 * value;  // NaN if the value is not finite, which the comparison passes over
   }
+  return largest + sum;
 }
+
+/// The larger of two sizes; NaN if one is.
+double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
 /// A manufactured source at all particles, by its series if it has one.
 class ParticleSource {
  public:
   ParticleSource(const Scene& scene, const SourceSeries::MakeSource& make, bool sided, bool may_be_series,
                  std::size_t count)
-      : f_(count), scratch_(sided ? count : 0) {
+      : f_(count) {
     // More samples than particles would be no saving.
     if (may_be_series) series_ = SourceSeries::find(scene, make, sided, std::min<std::size_t>(count / 2, 96));
     if (!series_) direct_ = make(Look::upwind);
   }
   bool is_series() const { return series_.has_value(); }
-  void evaluate(double t, const SharedParticles& particles, Team& team) {
-    if (!series_) {
-      if (placed_ != particles.times_moved()) direct_->place(particles.x.values());
-      placed_ = particles.times_moved();
-      direct_->evaluate(t, f_);
-      return;
-    }
-    series_->at(t);
-    const HalfPhases phases = particles.phases();
-    team.each(std::ssize(f_), 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      const auto part = [&](auto& values) { return std::span(values).subspan(begin, end - begin); };
-      const auto c_hat =
-          series_->sided() ? particles.c_hat.values().subspan(begin, end - begin) : std::span<const double>();
-      series_->evaluate({part(phases.cosine), part(phases.sine)}, c_hat, part(f_),
-                        series_->sided() ? part(scratch_) : std::span<double>());
-    });
+
+  // f at time t: by a series, which is found once for all pieces of particles, or directly for all particles.
+  void find_series(double t) {
+    if (series_) series_->at(t);
   }
-  const std::vector<double>& f() const { return f_; }
+  void evaluate_series(const SharedParticles& particles, const Piece& piece, Laps& laps) {
+    if (!series_) return;
+    const auto c_hat = series_->sided() ? piece.of(particles.c_hat.values()) : std::span<const double>();
+    series_->evaluate(particles.phases(piece), c_hat, piece.of(std::span(f_)));
+    laps.end_of(seconds);
+  }
+  void evaluate_directly(double t, const SharedParticles& particles) {
+    if (series_) return;
+    if (placed_ != particles.times_moved()) direct_->place(particles.x.values());
+    placed_ = particles.times_moved();
+    direct_->evaluate(t, f_);
+  }
+
+  const double* f() const { return f_.data(); }
   std::int64_t quadrature_points() const {
     return series_ ? series_->quadrature_points() : direct_->quadrature_points();
   }
+
+  double seconds = 0.0;
 
  private:
   std::optional<SourceSeries> series_;
   std::unique_ptr<Source> direct_;
   std::int64_t placed_ = 0;  ///< the move of the particles after which `direct_` was placed
-  std::vector<double> f_, scratch_;
+  ZeroedVector f_;
 };
 
 /// A case on its way.
 struct Member {
-  Member(const Case& its_case, std::size_t count)
+  Member(const Case& its_case, std::size_t count, const Team& team)
       : c(its_case),
         values{PeriodicArray(count),
                PeriodicArray(its_case.scheme.model == 1 && !its_case.scene->standing() ? count : 0),
-               std::vector<double>(count + 16)} {}
+               ZeroedVector(count + 16)},
+        next(count),
+        u_n(its_case.integrator->stage_count() > 1 ? count : 0),
+        largest(team, 0.0) {}
+
+  /// u at the start of the step, from its first stage to that of the next.
+  PeriodicArray& before() { return u_n.size() > 0 ? u_n : next; }
+
+  /// Takes what a stage has made of u.
+  void accept(bool first_stage) {
+    std::swap(values.u, next);
+    if (first_stage && u_n.size() > 0) std::swap(next, u_n);
+  }
 
   const Case& c;
   CaseResult result;
   SweptValues values;
-  std::vector<double> u_n;  ///< at the start of the step, where there are several stages
+  PeriodicArray next;  ///< what becomes of u
+  PeriodicArray u_n;   ///< at the start of the step, where there are several stages
   SweepGroup* group = nullptr;
   ParticleSource* source = nullptr;
   std::optional<ParticleSource> own_source;
@@ -127,6 +150,7 @@ struct Member {
   BoundWatch bound;
   double lemma_bound = 0.0;  ///< for a smallest gap of 1
   double solution_at_first = 0.0;
+  PerThread<double> largest;  ///< |u| after the last stage
   double t = 0.0;
   bool running = true;
 };
@@ -152,7 +176,7 @@ class Ensemble {
       } catch (const std::domain_error& error) {
         for (Member& m : members_) {
           if (!m.running) continue;
-          m.growth->restore(m.values.u.values());
+          if (stages_done_ > 0) std::swap(m.values.u, m.before());
           m.result.failure = fmt::format("{} in step {}, from t = {:.6g} on", error.what(), m.result.steps + 1, m.t);
         }
       }
@@ -178,29 +202,36 @@ class Ensemble {
     Needs needs;
     members_.reserve(cases.size());
     for (const Case* c : cases) {
-      Member& m = members_.emplace_back(*c, count);
+      Member& m = members_.emplace_back(*c, count, team_);
       add_source(m, count);
       const bool moving = !scene_.standing(), local = !c->scheme.nonlocal_divergence;
-      needs.velocities |= c->scheme.model == 1 && moving;
+      needs.c_hat |= c->scheme.model == 1 && moving;
+      needs.c_and_b |= c->scheme.model == 1 && moving && !local;
       needs.b_prime |= local && moving;
       needs.midpoints |= c->scheme.model == 2 && moving;
       needs.phases |= m.source->is_series();
       // The side of a source is that of c_hat.
-      needs.velocities |= c->scheme.model == 1 && m.source->is_series() && c->nonlocal_source;
+      needs.c_hat |= c->scheme.model == 1 && m.source->is_series() && c->nonlocal_source;
       needs.delta = std::max(needs.delta, c->delta);
     }
     particles_.emplace(scene_, start_positions(first_.start, count, scene_.period()), needs, team_);
-    particles_->move(0.0);
+    PerThread<double> largest(team_, 0.0);
+    particles_->move(0.0, [&](const Piece& piece, Laps&) {
+      const auto u = piece.of(members_.front().values.u.values());
+      scene_.u(piece.of(particles_->x.values()), 0.0, u);
+      for (const double value : u) largest[piece] = larger(largest[piece], std::abs(value));
+      for (Member& m : std::span(members_).subspan(1)) {
+        std::copy(u.begin(), u.end(), piece.of(m.values.u.values()).begin());
+      }
+    });
     for (Member& m : members_) {
       const auto fits = [&](const auto& group) { return group->takes(m.c); };
       const auto group = std::find_if(groups_.begin(), groups_.end(), fits);
       m.group = group != groups_.end() ? group->get()
                                        : groups_.emplace_back(std::make_unique<SweepGroup>(m.c, *particles_)).get();
       m.group->add(m.c, m.values);
-      scene_.u(particles_->x.values(), 0.0, m.values.u.values());
-      m.growth.emplace(m.values.u.values());
-      m.solution_at_first = max_norm({m.values.u.values().begin(), m.values.u.values().end()});
-      if (first_.integrator->stage_count() > 1) m.u_n.resize(count);
+      m.growth.emplace(largest.all(larger));
+      m.solution_at_first = largest.all(larger);
       m.lemma_bound = m.c.lemma_bound(1.0);
     }
   }
@@ -231,43 +262,57 @@ class Ensemble {
 
   template <class Steps>
   void go(Steps steps) {
-    const auto stages = first_.integrator->stages;
     std::int64_t n = 0;
     while (const std::optional<TimeStep> step = steps.next()) {
-      for (Member& m : members_) {
-        if (!m.u_n.empty()) std::copy(m.values.u.values().begin(), m.values.u.values().end(), m.u_n.begin());
+      for (const Stage& stage : first_.integrator->stages) {
+        advance(stage, *step);
+        ++stages_done_;
       }
-      for (const Stage& stage : stages) {
-        const double t = step->at(stage.time);
-        particles_->move(t);
-        watch_bounds(step->dt);
-        rates(t);
-        for (Member& m : members_) {
-          if (m.running) apply(stage, step->dt, m);
-        }
-      }
+      stages_done_ = 0;
       ++n;
       if (!look(n, *step)) return;
     }
   }
 
-  void rates(double t) {
+  /// One stage, in as few passes over the particles as there are times that all must wait for each other: first what
+  /// each of them needs no neighbor for, then for each group its sums, from which its cases step on.
+  void advance(const Stage& stage, TimeStep step) {
+    const double t = step.at(stage.time);
+    const bool first_stage = &stage == &first_.integrator->stages.front();
+    each_source([&](ParticleSource& source) { timed(source.seconds, [&] { source.find_series(t); }); });
+    particles_->move(t, [&](const Piece& piece, Laps& laps) {
+      each_source([&](ParticleSource& source) { source.evaluate_series(*particles_, piece, laps); });
+      for (const auto& group : groups_) group->prepare(piece, laps);
+    });
+    watch_bounds(step.dt);
+    each_source(
+        [&](ParticleSource& source) { timed(source.seconds, [&] { source.evaluate_directly(t, *particles_); }); });
+    for (Member& m : members_) m.largest.fill(0.0);
     for (const auto& group : groups_) {
-      if (!group->empty()) group->rates(team_);
+      if (group->empty()) continue;
+      group->rates(team_, [&](const Piece& piece) {
+        for (Member& m : members_) {
+          if (!m.running || m.group != group.get()) continue;
+          const std::ptrdiff_t j = piece.begin;
+          const double here =
+              apply_stage(stage.weight, step.dt, first_stage ? m.values.u.at(j) : m.u_n.at(j), m.values.u.at(j),
+                          m.values.rate.data() + j, m.source->f() + j, &m.next[j], piece.size());
+          m.largest[piece] = larger(m.largest[piece], here);
+        }
+      });
     }
-    if (local_source_) timed(source_seconds_, [&] { local_source_->evaluate(t, *particles_, team_); });
     for (Member& m : members_) {
-      if (m.own_source && m.running) {
-        timed(m.result.source_seconds, [&] { m.own_source->evaluate(t, *particles_, team_); });
-      }
+      if (m.running) m.accept(first_stage);
     }
   }
 
-  void apply(const Stage& stage, double dt, Member& m) {
-    team_.each(std::ssize(m.values.u), 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      apply_stage(stage.weight, dt, m.u_n.data(), m.values.rate.data(), m.source->f().data(),
-                  m.values.u.values().data(), begin, end);
-    });
+  /// Every source that some case still needs.
+  template <class Do>
+  void each_source(Do&& what) {
+    if (local_source_) what(*local_source_);
+    for (Member& m : members_) {
+      if (m.own_source && m.running) what(*m.own_source);
+    }
   }
 
   void watch_bounds(double dt) {
@@ -292,8 +337,12 @@ class Ensemble {
         scene_.u(particles_->positions(step.end), step.end, exact);
         return max_norm(exact);
       };
-      m.running = m.growth->makes_sense(n, step.end, m.values.u.values(), exact_size);
-      if (!m.running) m.group->remove(m.values);
+      const double largest = m.largest.all(larger);
+      m.running = m.growth->makes_sense(n, step.end, m.values.u.values(), largest, exact_size);
+      if (!m.running) {
+        if (!std::isfinite(largest)) std::swap(m.values.u, m.before());
+        m.group->remove(m.values);
+      }
       any |= m.running;
     }
     return any && !stop_.load(std::memory_order_relaxed);
@@ -307,19 +356,19 @@ class Ensemble {
 
   void share_time(Member& m, double seconds) {
     const auto count = static_cast<double>(members_.size());
-    double of_groups = 0.0, of_own_sources = 0.0;
+    double of_groups = 0.0, of_sources = 0.0;
     for (const auto& group : groups_) of_groups += group->seconds;
-    for (const Member& other : members_) of_own_sources += other.own_source ? other.result.source_seconds : 0.0;
-    const auto in_group = static_cast<double>(
-        std::count_if(members_.begin(), members_.end(), [&](const Member& other) { return other.group == m.group; }));
-    const auto with_local_source = static_cast<double>(
-        std::count_if(members_.begin(), members_.end(), [](const Member& other) { return !other.c.nonlocal_source; }));
+    if (local_source_) of_sources += local_source_->seconds;
+    for (const Member& other : members_) of_sources += other.own_source ? other.own_source->seconds : 0.0;
+    const auto with = [&](auto has) {
+      return static_cast<double>(std::count_if(members_.begin(), members_.end(), has));
+    };
     CaseResult& r = m.result;
-    r.pairs_seconds = m.group->seconds / in_group;
+    r.pairs_seconds = m.group->seconds / with([&](const Member& other) { return other.group == m.group; });
     r.positions_seconds = particles_->positions_seconds / count;
     r.weights_seconds = particles_->velocities_seconds / count;
-    if (!m.c.nonlocal_source) r.source_seconds = source_seconds_ / with_local_source;
-    const double rest = seconds - of_groups - of_own_sources - source_seconds_ - particles_->positions_seconds -
+    r.source_seconds = m.source->seconds / with([&](const Member& other) { return other.source == m.source; });
+    const double rest = seconds - of_groups - of_sources - particles_->positions_seconds -
                         particles_->velocities_seconds + setup_seconds_;
     r.seconds = r.pairs_seconds + r.positions_seconds + r.weights_seconds + r.source_seconds + rest / count;
   }
@@ -346,7 +395,8 @@ class Ensemble {
   std::vector<Member> members_;
   std::vector<std::unique_ptr<SweepGroup>> groups_;
   std::optional<ParticleSource> local_source_;
-  double source_seconds_ = 0.0, setup_seconds_ = 0.0;
+  int stages_done_ = 0;  ///< of a step that is not finished
+  double setup_seconds_ = 0.0;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 /// @file
 /// The particles of several cases, with what all their sweeps see: positions, velocities, phases.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace acstudy {
 /// The velocities of a scene as short trigonometric series, where they are such; those of b where particles move.
 struct VelocitySeries {
   std::optional<TrigonometricSeries> c, b, b_prime;
+  std::optional<TrigonometricSeries> c_hat;  ///< c - b, where both are
   explicit VelocitySeries(const Scene& scene);
 };
 
@@ -35,11 +37,12 @@ double midpoint_reach(double delta, double largest_gap);
 
 /// What the sweeps of some cases need at the particles.
 struct Needs {
-  bool velocities = false;  ///< c, b and c_hat (Model I)
-  bool b_prime = false;     ///< (local divergence)
-  bool midpoints = false;   ///< (Model II)
-  bool phases = false;      ///< (sources that are series)
-  double delta = 0.0;       ///< the largest horizon
+  bool c_hat = false;      ///< (Model I)
+  bool c_and_b = false;    ///< (its nonlocal divergence)
+  bool b_prime = false;    ///< (local divergence)
+  bool midpoints = false;  ///< (Model II)
+  bool phases = false;     ///< (sources that are series)
+  double delta = 0.0;      ///< the largest horizon
 };
 
 class SharedParticles {
@@ -47,15 +50,18 @@ class SharedParticles {
   /// @param scene  outlives the particles
   SharedParticles(const Scene& scene, std::vector<double> start, Needs needs, Team& team);
 
-  /// Takes the particles to time t and computes what is needed there; nothing if they are there already.
+  /// What is done with the particles of a piece, each alone, once they are where they are meant to be.
+  using AndThen = std::function<void(const Piece&, Laps&)>;
+
+  /// Takes the particles to time t and computes what is needed there, if they are not there already.
   /// @throws std::domain_error if particles have crossed, or the flow cannot be integrated
-  void move(double t);
+  void move(double t, const AndThen& and_then = {});
   /// Positions at time t, for a look at the solution.
   std::span<const double> positions(double t);
 
   std::size_t size() const { return x.size(); }
   const Scene& scene() const { return scene_; }
-  HalfPhases phases() const { return {half_cosine_.values(), half_sine_.values()}; }
+  Phases phases(const Piece& piece) const { return {piece.of(cosine_.values()), piece.of(sine_.values())}; }
   double smallest_gap() const { return smallest_gap_; }
   /// Where it begins.
   double place_of_smallest_gap() const;
@@ -75,7 +81,9 @@ class SharedParticles {
   double positions_seconds = 0.0, velocities_seconds = 0.0;
 
  private:
-  void fill(std::ptrdiff_t begin, std::ptrdiff_t end);
+  /// Positions at time t, if they are not there yet, and phases.
+  void place(std::optional<double> t, const Piece& piece);
+  void fill(const Piece& piece);
   void fit_panels();
   void wrap_positions();
   void wrap_fields();
@@ -86,7 +94,8 @@ class SharedParticles {
   VelocitySeries series_;
   std::optional<Trajectories> trajectories_;  ///< none where particles stand still
   std::vector<double> start_;
-  PeriodicArray half_cosine_, half_sine_;
+  PeriodicArray cosine_, sine_;            ///< of w x, where they are needed
+  PeriodicArray half_cosine_, half_sine_;  ///< of w x/2, where there are `modes`
   double t_ = -1.0, smallest_gap_ = 0.0;
   std::ptrdiff_t wrapped_;  ///< ghosts of x at each end
   std::int64_t times_moved_ = 0;

@@ -1,14 +1,23 @@
 #include "studies/ensemble/sweep_group.hpp"
 
-#include <atomic>
+#include <algorithm>
 #include <variant>
 
 #include "solver/far/far_sweeps.hpp"
+#include "solver/vector/clones.hpp"
 #include "studies/kernel_choice.hpp"
 #include "studies/scheme.hpp"
 #include "studies/stopwatch.hpp"
 
 namespace acstudy {
+
+namespace {
+
+ACSTUDY_VECTOR_CLONES void product(const double* a, const double* b, std::span<double> out) {
+  for (std::size_t j = 0; j < out.size(); ++j) out[j] = a[j] * b[j];
+}
+
+}  // namespace
 
 struct SweepGroup::Kernel {
   std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel> kernel;
@@ -75,32 +84,45 @@ void SweepGroup::remove(const SweptValues& values) {
   if (nonlocal_ == &values) nonlocal_ = nullptr;
 }
 
-void SweepGroup::rates(Team& team) {
-  timed(seconds, [&] { standing_ ? sweep_standing(team) : sweep_moving(team); });
-}
-
-void SweepGroup::sweep_standing(Team& team) {
-  const std::ptrdiff_t lanes = sweeps().lanes;
+void SweepGroup::prepare(const Piece& piece, Laps& laps) {
+  if (standing_ || model_ != 1) return;
   for (SweptValues* values : {local_, nonlocal_}) {
     if (values == nullptr) continue;
-    values->u.wrap(standing_->reach);
-    team.each(std::ssize(standing_->blocks), 64 / lanes, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      sweeps().banded(standing_->blocks.data(), standing_->value.data(), values->u.at(0), values->rate.data(), begin,
-                      end);
-    });
+    product(particles_.c_hat.at(piece.begin), values->u.at(piece.begin), piece.of(values->flux.values()));
   }
+  laps.end_of(seconds);
+}
+
+void SweepGroup::rates(Team& team, const AndThen& and_then) {
+  standing_ ? sweep_standing(team, and_then) : sweep_moving(team, and_then);
+}
+
+void SweepGroup::sweep_standing(Team& team, const AndThen& and_then) {
+  const std::ptrdiff_t lanes = sweeps().lanes;
+  timed(seconds, [&] {
+    for (SweptValues* values : {local_, nonlocal_}) {
+      if (values != nullptr) values->u.wrap(standing_->reach);
+    }
+  });
+  team.each(std::ssize(particles_.x), 32, [&](const Piece& piece) {
+    Laps laps(piece);
+    for (SweptValues* values : {local_, nonlocal_}) {
+      if (values == nullptr) continue;
+      sweeps().banded(standing_->blocks.data(), standing_->value.data(), values->u.at(0), values->rate.data(),
+                      piece.begin / lanes, (piece.end + lanes - 1) / lanes);
+    }
+    laps.end_of(seconds);
+    and_then(piece);
+  });
   work_.pairs += standing_pairs_;
 }
 
-void SweepGroup::sweep_moving(Team& team) {
+void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
   const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(delta_), lanes = sweeps().lanes;
   const auto scheme = [&](SweptValues* values) {
     SweepScheme swept;
     if (values == nullptr) return swept;
     if (model_ == 1) {
-      team.each(count, 64, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t j = begin; j < end; ++j) values->flux[j] = particles_.c_hat[j] * values->u[j];
-      });
       values->flux.wrap(reach);
       swept.flux = values->flux.at(0);
     }
@@ -110,34 +132,41 @@ void SweepGroup::sweep_moving(Team& team) {
     return swept;
   };
   const auto begin_of = [](const PeriodicArray& field) { return field.size() > 0 ? field.at(0) : nullptr; };
-  const SweepScheme local = scheme(local_), nonlocal = scheme(nonlocal_);
-  SweepRange whole{particles_.x.at(0), delta_, particles_.inside(delta_), 0, count};
-  std::atomic<std::int64_t> pairs{0};
+  SweepScheme local, nonlocal;
+  timed(seconds, [&] {
+    local = scheme(local_);
+    nonlocal = scheme(nonlocal_);
+  });
+  const SweepRange whole{particles_.x.at(0), delta_, particles_.inside(delta_), 0, count};
+  PerThread<std::int64_t> pairs(team, 0);
   const auto each_range = [&](std::ptrdiff_t grain, auto run) {
-    team.each(count, grain, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-      SweepRange range = whole;
-      range.begin = begin;
-      range.end = end;
-      pairs += run(range);
+    team.each(count, grain, [&](const Piece& piece) {
+      Laps laps(piece);
+      run(piece);
+      laps.end_of(seconds);
+      and_then(piece);
     });
+  };
+  const auto range_of = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    SweepRange range = whole;
+    range.begin = begin;
+    range.end = end;
+    return range;
   };
   const auto run = [&](const auto& sweep, auto direct, auto far) {
     const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
-    if (!far::far_pays(sweep, neighbors)) {
-      each_range(64, [&](const SweepRange& range) { return direct(range, sweep); });
-      return;
-    }
-    const std::ptrdiff_t size = far::range_size(static_cast<std::ptrdiff_t>(neighbors));
-    each_range(size, [&](SweepRange range) {
-      thread_local far::Memory memory;
-      std::int64_t far_pairs = 0;
+    if (far::far_pays(sweep, neighbors)) {
       // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
-      for (const std::ptrdiff_t end = range.end; range.begin < end; range.begin = range.end) {
-        range.end = std::min(range.begin + size, end);
-        far_pairs += far(range, sweep, memory);
-      }
-      return far_pairs;
-    });
+      const std::ptrdiff_t size = far::range_size(static_cast<std::ptrdiff_t>(neighbors));
+      each_range(size, [&, size](const Piece& piece) {
+        thread_local far::Memory memory;
+        for (std::ptrdiff_t begin = piece.begin; begin < piece.end; begin += size) {
+          pairs[piece] += far(range_of(begin, std::min(begin + size, piece.end)), sweep, memory);
+        }
+      });
+    } else {
+      each_range(32, [&](const Piece& piece) { pairs[piece] += direct(range_of(piece.begin, piece.end), sweep); });
+    }
   };
   if (model_ == 1) {
     const UpwindSweep sweep{kernel_->sweep,
@@ -169,7 +198,7 @@ void SweepGroup::sweep_moving(Team& team) {
     }
     run(sweep, sweeps().symmetric, far::far_sweeps().symmetric);
   }
-  work_.pairs += pairs;
+  work_.pairs += pairs.all(std::plus<>());
   ++work_.weight_builds;
 }
 

@@ -3,6 +3,7 @@
 /// @file
 /// Schemes of one model, kernel and horizon, whose rates come from one sweep over pairs.
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -16,8 +17,8 @@ namespace acstudy {
 /// The values of one case during its run.
 struct SweptValues {
   PeriodicArray u;
-  PeriodicArray flux;        ///< c_hat u, of Model I on moving particles
-  std::vector<double> rate;  ///< [N] and the rest of a vector
+  PeriodicArray flux;  ///< c_hat u, of Model I on moving particles
+  ZeroedVector rate;   ///< [N] and the rest of a vector
 };
 
 class SweepGroup {
@@ -36,18 +37,25 @@ class SweepGroup {
   void remove(const SweptValues& values);
   bool empty() const { return local_ == nullptr && nonlocal_ == nullptr; }
 
+  /// What rates(), called after it, needs to be known of all particles first: the fluxes of Model I.
+  void prepare(const Piece& piece, Laps& laps);
+
+  /// Called with a piece of particles as soon as their rates are known, while others' are not.
+  /// It may change no u that the group sees.
+  using AndThen = std::function<void(const Piece&)>;
+
   /// rate = rate(u) of every case. The particles must be where they are meant to be.
-  void rates(Team& team);
+  void rates(Team& team, const AndThen& and_then);
 
   /// Pair interactions and weight builds of each of the group's cases so far.
   const WorkCounts& work() const { return work_; }
 
-  double seconds = 0.0;  ///< spent in sweeps
+  double seconds = 0.0;  ///< spent in sweeps, and in fluxes
 
  private:
   struct Kernel;
-  void sweep_moving(Team& team);
-  void sweep_standing(Team& team);
+  void sweep_moving(Team& team, const AndThen& and_then);
+  void sweep_standing(Team& team, const AndThen& and_then);
 
   const SharedParticles& particles_;
   std::unique_ptr<Kernel> kernel_;

@@ -8,15 +8,20 @@ namespace acstudy {
 
 namespace {
 
-/// Looks for a change for about a millisecond before it lets the processor go: rounds follow each other that closely,
-/// and to be woken takes longer than many of them.
+std::ptrdiff_t quotient_up(std::ptrdiff_t whole, std::ptrdiff_t part) { return (whole + part - 1) / part; }
+
+/// Looks for a change for about a millisecond before it sleeps: rounds follow each other that closely, and to be woken
+/// takes longer than many of them. Soon it lets others have the processor, for who is waited for may need this one.
 template <class Changed>
 bool spin(Changed&& changed) {
   using clock = std::chrono::steady_clock;
-  for (const auto end = clock::now() + std::chrono::milliseconds(1); clock::now() < end;) {
+  using namespace std::chrono_literals;
+  const auto start = clock::now();
+  for (auto waited = 0ns; waited < 1ms; waited = clock::now() - start) {
     for (int i = 0; i < 64; ++i) {
       if (changed()) return true;
     }
+    if (waited > 20us) std::this_thread::yield();
   }
   return false;
 }
@@ -38,22 +43,28 @@ Team::~Team() {
   for (std::thread& thread : others_) thread.join();
 }
 
-void Team::each(std::ptrdiff_t count, std::ptrdiff_t grain,
-                const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work) {
-  if (others_.empty() || count <= grain) {
-    work(0, count);
-    return;
-  }
-  // Several pieces a thread, so that one who is held up holds up no other; each begins with the same part of the range
-  // every time, which is in its cache.
-  const std::ptrdiff_t threads = std::ssize(parts_), pieces = 32 * threads;
-  piece_ = (count / pieces / grain + 1) * grain;
-  const std::ptrdiff_t part = (count / threads / piece_ + 1) * piece_;
+std::ptrdiff_t Team::piece_size(std::ptrdiff_t count, std::ptrdiff_t grain) const {
+  // Several pieces a thread, so that one who is held up holds up no other.
+  const std::ptrdiff_t threads = std::ssize(parts_), most_particles = 1024;
+  const std::ptrdiff_t pieces =
+      std::max(quotient_up(count, threads * most_particles), std::ptrdiff_t{threads > 1 ? 4 : 1}) * threads;
+  return quotient_up(quotient_up(count, pieces), grain) * grain;
+}
+
+void Team::each(std::ptrdiff_t count, std::ptrdiff_t grain, const Work& work) {
+  // Each begins with the same part of the range every time, which is in its cache.
+  const std::ptrdiff_t threads = std::ssize(parts_);
+  piece_ = piece_size(count, grain);
+  const std::ptrdiff_t part = quotient_up(quotient_up(count, piece_), threads) * piece_;
   for (std::ptrdiff_t i = 0; i < threads; ++i) {
     parts_[i].next = std::min(i * part, count);
     parts_[i].end = std::min((i + 1) * part, count);
   }
   work_ = &work;
+  if (others_.empty() || count <= piece_) {
+    take_pieces(0);
+    return;
+  }
   busy_ = static_cast<int>(others_.size());
   ++round_;
   round_.notify_all();
@@ -80,7 +91,7 @@ void Team::take_pieces(std::size_t own) {
     for (;;) {
       const std::ptrdiff_t begin = part.next.fetch_add(piece_);
       if (begin >= part.end) break;
-      (*work_)(begin, std::min(begin + piece_, part.end));
+      (*work_)({begin, std::min(begin + piece_, part.end), own});
     }
   }
 }

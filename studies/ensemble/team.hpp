@@ -3,27 +3,48 @@
 /// @file
 /// Threads that share the work of one case.
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <thread>
 #include <vector>
 
 namespace acstudy {
 
+/// A part of a range of particles, small enough that what one step of a pass leaves of it is in the cache for the next.
+struct Piece {
+  std::ptrdiff_t begin, end;
+  std::size_t thread;  ///< who has it; 0 is the caller
+
+  std::ptrdiff_t size() const { return end - begin; }
+  /// The piece's part of an array over all particles.
+  template <class T>
+  std::span<T> of(std::span<T> all) const {
+    return all.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(size()));
+  }
+};
+
 /// Calls a function for pieces of a range, from several threads. With one thread there is none but the caller.
 class Team {
  public:
+  using Work = std::function<void(const Piece&)>;
+
   /// @param threads  >= 1, the caller among them; fewer if the machine gives no more
   explicit Team(int threads);
   ~Team();
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Calls work(begin, end) for pieces that together are 0 .. count - 1; every piece but the last begins and ends at a
+  std::size_t threads() const { return parts_.size(); }
+
+  /// Calls work(piece) for pieces that together are 0 .. count - 1; every piece but the last begins and ends at a
   /// multiple of `grain`, whatever the number of threads. Returns when all are done. `work` must not throw.
-  void each(std::ptrdiff_t count, std::ptrdiff_t grain,
-            const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& work);
+  void each(std::ptrdiff_t count, std::ptrdiff_t grain, const Work& work);
+  /// The size of these pieces, but for the last one.
+  std::ptrdiff_t piece_size(std::ptrdiff_t count, std::ptrdiff_t grain) const;
 
  private:
   /// One thread's part of the range: what is not yet taken of it.
@@ -40,7 +61,48 @@ class Team {
   std::atomic<bool> ends_{false};
   std::vector<Part> parts_;
   std::ptrdiff_t piece_ = 0;
-  const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>* work_ = nullptr;
+  const Work* work_ = nullptr;
+};
+
+/// A value of each thread of a team, in a cache line of its own.
+template <class T>
+class PerThread {
+ public:
+  PerThread(const Team& team, T value) : slots_(team.threads(), Slot{value}) {}
+  void fill(T value) { std::fill(slots_.begin(), slots_.end(), Slot{value}); }
+  T& operator[](const Piece& piece) { return slots_[piece.thread].value; }
+  /// combine(... combine(first, second) ..., last).
+  template <class Combine>
+  T all(Combine&& combine) const {
+    T value = slots_.front().value;
+    for (std::size_t i = 1; i < slots_.size(); ++i) value = combine(value, slots_[i].value);
+    return value;
+  }
+
+ private:
+  struct alignas(64) Slot {
+    T value;
+  };
+  std::vector<Slot> slots_;
+};
+
+/// Tells apart what the parts of a pass take: by the clock of the caller, who does the same as all others.
+class Laps {
+ public:
+  explicit Laps(const Piece& piece) : timed_(piece.thread == 0) {
+    if (timed_) last_ = std::chrono::steady_clock::now();
+  }
+  /// Adds the time since the last call to a part.
+  void end_of(double& part_seconds) {
+    if (!timed_) return;
+    const auto now = std::chrono::steady_clock::now();
+    part_seconds += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  bool timed_;
+  std::chrono::steady_clock::time_point last_;
 };
 
 }  // namespace acstudy

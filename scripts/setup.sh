@@ -208,8 +208,8 @@ explain_too_old() {
 [ $# -gt 0 ] || set -- build report
 for purpose; do
     case $purpose in
-        build | report | test | lint) ;;
-        *) say "$0: no purpose \"$purpose\"; write build, report, test or lint" && exit 2 ;;
+        build | report | bench | test | lint) ;;
+        *) say "$0: no purpose \"$purpose\"; write build, report, bench, test or lint" && exit 2 ;;
     esac
 done
 case ${SETUP:-on} in on | off) ;; *) say "SETUP = $SETUP; write SETUP=off, or leave it out" && exit 2 ;; esac

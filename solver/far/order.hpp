@@ -53,6 +53,12 @@ struct Vector {
   }
 };
 
+/// The next particles from p on, as many as there are before `stop`.
+template <int s>
+Vector<s> vector_of(std::ptrdiff_t p, std::ptrdiff_t stop) {
+  return {p, stop - p < lane_count ? static_cast<int>(stop - p) : lane_count};
+}
+
 /// Particles by index: those of a range and all of their neighbors.
 struct Sources {
   std::ptrdiff_t first, last;

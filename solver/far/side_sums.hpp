@@ -6,25 +6,26 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "solver/far/box_tables.hpp"
+#include "solver/far/boxes.hpp"
+#include "solver/far/far_sweeps.hpp"
 #include "solver/far/order.hpp"
 #include "solver/far/pair_sums.hpp"
-#include "solver/far/polynomial_sums.hpp"
-#include "solver/far/reciprocal_window.hpp"
 #include "solver/vector/lanes.hpp"
 #include "solver/vector/sweeps.hpp"
 
 namespace acstudy::far {
 inline namespace ACSTUDY_ISA {
 
+/// The particles of a range in boxes of 1/K of a horizon. What the particles of a box see beyond their own is two
+/// windows of boxes: `inner`, before the breakpoint of the kernel, and `outer`, behind it. Both move by a box from box
+/// to box. Pair by pair are summed the cells in and beside the box itself, across the breakpoint and at the horizon:
+/// some two boxes full, whatever δ/h is.
 template <int s, class C>
 class SideSums {
  public:
-  using Moment = typename C::Moment;
-
   /// @param rows  of the particles and as far as their windows reach, by index
   SideSums(const SweepRange& range, const double* rows, Memory& memory)
-      : range_(range), order_{range.x}, rows_(rows), per_delta_(1.0 / range.delta), memory_(memory) {}
+      : range_(range), order_{range.x}, rows_(rows), memory_(memory) {}
 
   /// Calls finish(vector, sums) for all of the particles start .. stop - 1. @return number of pairs
   template <class Finish>
@@ -35,11 +36,11 @@ class SideSums {
     const double neighbors = static_cast<double>(pairs) / static_cast<double>(stop - start);
     const BoxTables* const tables = stop - start < 32 ? nullptr : box_tables(neighbors, C::per_box);
     if (tables == nullptr) {
-      PairSums<s, C> direct(range_, rows_, outermost_, start);
+      PairSums<s, C> pair_sums(range_, rows_, outermost_, start);
       for (std::ptrdiff_t p = start; p < stop; p += lane_count) {
-        const Vector<s> vector = vector_of(p, stop);
+        const Vector<s> vector = vector_of<s>(p, stop);
         ChannelSums<C> sums;
-        direct.add(vector, {0, 0, p, p, p, nullptr}, sums);
+        pair_sums.add(vector, {0, 0, p, p, p, nullptr}, sums);
         finish(vector, sums);
       }
     } else {
@@ -49,258 +50,117 @@ class SideSums {
   }
 
  private:
-  static constexpr int over_terms = Moment::degree - 1, plain_terms = C::plain > 0 ? Moment::degree : 0;
-  static constexpr int over_width = (C::over + lane_count - 1) / lane_count * lane_count;
-  static constexpr int powers_size = C::over * padded_terms;
-
-  struct Polynomials {
-    PolynomialSums<over_terms, over_width> over;
-    PolynomialSums<plain_terms, C::stride> plain;
-
-    ACSTUDY_ALWAYS_INLINE inline void clear() {
-      over.clear();
-      plain.clear();
-    }
-    ACSTUDY_ALWAYS_INLINE inline void move(double h) {
-      over.move(h);
-      plain.move(h);
-    }
-    ACSTUDY_ALWAYS_INLINE inline void add(const Polynomials& other, double h, double sign) {
-      over.add(other.over, h, sign);
-      plain.add(other.plain, h, sign);
-    }
-  };
-  static constexpr std::ptrdiff_t polynomials_size = (sizeof(Polynomials) + 63) / 64 * 8;
+  using Polynomials = BoxPolynomials<C>;
+  using Inner = BoxWindow<Piece::inside, s, C>;
+  using Outer = BoxWindow<Piece::outside, s, C>;
 
   std::ptrdiff_t outermost(std::ptrdiff_t p) const { return static_cast<std::ptrdiff_t>(outermost_[s * p]); }
-  static Vector<s> vector_of(std::ptrdiff_t p, std::ptrdiff_t stop) {
-    return {p, stop - p < lane_count ? static_cast<int>(stop - p) : lane_count};
-  }
-  const double* row(std::ptrdiff_t p) const { return rows_ + s * p * C::stride; }
-
-  /// powers[v][l] = t^(v lane_count + l)
-  ACSTUDY_ALWAYS_INLINE static inline void monomials(double t, Lanes* powers) {
-    Mask exponent;
-    for (int l = 0; l < lane_count; ++l) exponent[l] = l;
-    powers[0] = spread(1.0);
-    double power = t;
-#pragma GCC unroll 4
-    for (int bit = 1; bit < lane_count; bit *= 2) {
-      powers[0] = powers[0] * ((exponent & bit) != 0 ? spread(power) : spread(1.0));
-      power *= power;
-    }
-#pragma GCC unroll 16
-    for (int v = 1; v < padded_terms / lane_count; ++v) powers[v] = powers[v - 1] * power;
-  }
-
-  /// What the sources first .. last - 1, in a box about `center`, add to the windows: m is a polynomial, m/z a
-  /// polynomial and charge/z.
-  template <Piece piece>
-  ACSTUDY_ALWAYS_INLINE inline void take_in(std::ptrdiff_t first, std::ptrdiff_t last, double center, double per_radius,
-                                            double* charge, double* charge_powers, Polynomials& polynomials) const {
-    constexpr int vectors = padded_terms / lane_count, over_vectors = over_width / lane_count,
-                  plain_vectors = C::stride / lane_count;
-    const double kappa = per_delta_ / per_radius;
-    Lanes powers_sum[C::over * vectors] = {};
-    Lanes over_sum[over_terms * over_vectors + 1] = {}, plain_sum[plain_terms * plain_vectors + 1] = {};
-    for (std::ptrdiff_t p = first; p < last; p += lane_count) {
-      const Vector<s> vector = vector_of(p, last);
-      const Lanes tau = (vector.x(order_) - center) * per_radius;
-      Lanes D[Moment::degree];
-      moment_coefficients<Moment, piece>(vector.gap(order_) * per_delta_, D);
-      double taus[lane_count], charges[lane_count], over[over_terms + 1][lane_count],
-          plain[plain_terms + 1][lane_count];
-      store(taus, tau);
-      store(charges, D[0]);
-      // z = kappa (u - tau), with u from the center on in half boxes.
-      double scale = 1.0;
-      for (int n = 1; n < Moment::degree; ++n) D[n] *= scale *= kappa;
-      if constexpr (plain_terms > 0) {
-        Lanes coefficient[plain_terms];
-        for (int n = 0; n < plain_terms; ++n) coefficient[n] = D[n];
-        move_origin<plain_terms>(coefficient, -tau);
-        for (int n = 0; n < plain_terms; ++n) store(plain[n], coefficient[n]);
-      }
-      if constexpr (over_terms > 0) {
-        move_origin<over_terms>(D + 1, -tau);
-        for (int n = 0; n < over_terms; ++n) store(over[n], D[n + 1] * (1.0 / kappa));
-      }
-      for (int k = 0; k < vector.count; ++k) {
-        const int lane = Vector<s>::lane(k);
-        const double* const r = row(p + k);
-        charge[p + k] = charges[lane];
-        Lanes power[vectors];
-        monomials(taus[lane], power);
-#pragma GCC unroll 4
-        for (int c = 0; c < C::over; ++c) {
-          const double charge_c = charges[lane] * r[c];
-#pragma GCC unroll 16
-          for (int v = 0; v < vectors; ++v) powers_sum[c * vectors + v] += power[v] * charge_c;
-        }
-#pragma GCC unroll 4
-        for (int n = 0; n < over_terms; ++n) {
-#pragma GCC unroll 4
-          for (int v = 0; v < over_vectors; ++v) {
-            over_sum[n * over_vectors + v] += load(r + v * lane_count) * over[n][lane];
-          }
-        }
-#pragma GCC unroll 4
-        for (int n = 0; n < plain_terms; ++n) {
-#pragma GCC unroll 16
-          for (int v = 0; v < plain_vectors; ++v) {
-            plain_sum[n * plain_vectors + v] += load(r + v * lane_count) * plain[n][lane];
-          }
-        }
-      }
-    }
-    for (int k = 0; k < C::over * vectors; ++k) store(charge_powers + k * lane_count, powers_sum[k]);
-    for (int k = 0; k < over_terms * over_vectors; ++k) {
-      store(polynomials.over.coefficient + k * lane_count, over_sum[k]);
-    }
-    for (int k = 0; k < plain_terms * plain_vectors; ++k) {
-      store(polynomials.plain.coefficient + k * lane_count, plain_sum[k]);
-    }
-  }
 
   template <class Finish>
   void by_boxes(const BoxTables& tables, std::ptrdiff_t start, std::ptrdiff_t stop, Finish&& finish) {
-    const int K = tables.boxes;
-    const double width = range_.delta / K, origin = order_.x(start), per_radius = 2.0 / width;
-    // Boxes from -below on; first_in(b) is the first particle at or beyond the left edge of box b.
-    const std::ptrdiff_t below = K + 2, above = static_cast<std::ptrdiff_t>((order_.x(stop - 1) - origin) / width) + 2;
-    double* const firsts = memory_.boxes.reserve(below + above + 1) + below;
-    const std::ptrdiff_t lowest = outermost(start);
-    std::ptrdiff_t q = lowest;
-    for (std::ptrdiff_t b = -below; b <= above; ++b) {
-      const double edge = origin + width * static_cast<double>(b);
-      while (q < stop && order_.x(q) < edge) ++q;
-      firsts[b] = static_cast<double>(q);
-    }
-    const auto first_in = [=](std::ptrdiff_t b) { return static_cast<std::ptrdiff_t>(firsts[b]); };
-    // Outer boxes hold the cells that end in them, whose particle may stand a little further out: so that none reaches
-    // across the breakpoint from the box before it.
-    const auto first_cell_in = [=, this](std::ptrdiff_t b) {
-      const std::ptrdiff_t p = first_in(b);
-      return p > lowest && order_.x(p - 1) >= origin + width * (static_cast<double>(b) - 0.1) ? p - 1 : p;
-    };
-    const auto center = [=](std::ptrdiff_t b) { return origin + width * (static_cast<double>(b) + 0.5); };
-
-    const BoxExpansion& inner_expansion = C::two_pieces ? tables.near : tables.whole;
-    const std::ptrdiff_t ring = K + 4;
-    double* memory =
-        memory_.moments.reserve(ReciprocalWindow<C::over>::memory(inner_expansion, ring) +
-                                ReciprocalWindow<C::over>::memory(tables.far, ring) + 2 * ring * polynomials_size);
-    ReciprocalWindow<C::over> inner(inner_expansion, ring, memory);
-    memory += ReciprocalWindow<C::over>::memory(inner_expansion, ring);
-    ReciprocalWindow<C::over> outer(tables.far, ring, memory);
-    memory += ReciprocalWindow<C::over>::memory(tables.far, ring);
-    const auto ring_of = [=](std::ptrdiff_t part, std::ptrdiff_t b) {
-      return reinterpret_cast<Polynomials*>(memory + (part * ring + (b + below) % ring) * polynomials_size);
-    };
-    double* const charge = memory_.charges.reserve(stop - lowest) - lowest;
-    PairSums<s, C> direct(range_, rows_, outermost_, start);
+    const std::ptrdiff_t K = tables.boxes, size = K + 4, lowest_source = outermost(start);
+    const Boxes<s> boxes(order_, range_.delta / static_cast<double>(K), K, lowest_source, start, stop, memory_.boxes);
+    double* const charge = memory_.charges.reserve(stop - lowest_source) - lowest_source;
+    const BoxExpansion& expansion = C::two_pieces ? tables.near : tables.whole;
+    double* const memory = memory_.moments.reserve(Inner::memory(expansion, size) + Outer::memory(tables.far, size));
+    const double per_delta = 1.0 / range_.delta;
+    Inner inner(boxes, C::two_pieces ? 1 - K / 2 : boxes.lowest(), expansion, size, per_delta, rows_, charge, memory);
+    Outer outer(boxes, boxes.lowest(), tables.far, size, per_delta, rows_, charge,
+                memory + Inner::memory(expansion, size));
+    PairSums<s, C> pair_sums(range_, rows_, outermost_, start);
     Polynomials sum;
     sum.clear();
+    // The reciprocals of the box beside the particles' enter a box later than its polynomials: see expansion_terms.
+    double beside[Inner::powers_size], powers[Outer::powers_size];
+    bool has_beside = false;
 
-    // The windows hold the boxes from `begin` to `end`; of the last one of the inner window, which is next to the
-    // particles', the reciprocal window holds nothing yet.
-    const std::ptrdiff_t first_inner = C::two_pieces ? 1 - K / 2 : -below;
-    std::ptrdiff_t inner_begin = first_inner, inner_end = first_inner;
-    std::ptrdiff_t outer_begin = -below, outer_end = -below;
-    double next_to[powers_size], powers[powers_size];
-    for (std::ptrdiff_t B = 0; B < above; ++B) {
+    for (std::ptrdiff_t B = 0; B <= boxes.highest(); ++B) {
       sum.move(2.0);
-      const std::ptrdiff_t p_begin = first_in(B), p_end = first_in(B + 1);
-      const std::ptrdiff_t highest = outermost(p_begin < p_end ? p_end - 1 : p_begin < stop ? p_begin : stop - 1);
-      for (; inner_end < B; ++inner_end) {
-        if (inner_end > first_inner) inner.push(next_to);
-        Polynomials& own = *ring_of(0, inner_end);
-        take_in<Piece::inside>(first_in(inner_end), first_in(inner_end + 1), center(inner_end), per_radius, charge,
-                               next_to, own);
-        sum.add(own, 2.0 * static_cast<double>(B - inner_end), 1.0);
+      const std::ptrdiff_t first = boxes.first(B), end = boxes.first(B + 1);
+      const std::ptrdiff_t highest = outermost(first < end ? end - 1 : first < stop ? first : stop - 1);
+      while (inner.end() < B) {
+        if (has_beside) inner.enter_reciprocals(beside);
+        has_beside = true;
+        inner.enter(boxes.first(inner.end()), boxes.first(inner.end() + 1), B, sum, beside);
       }
       // Only of the window that reaches to the horizon may a particle's outermost neighbor be part, and only of boxes
       // that are summed in full.
-      const bool may_hold_outermost = !C::two_pieces && highest < first_in(B - 1);
-      for (; inner_begin < inner_end && (inner_begin < B + 1 - (C::two_pieces ? K / 2 : K) ||
-                                         (!may_hold_outermost && first_in(inner_begin) <= highest));
-           ++inner_begin) {
-        sum.add(*ring_of(0, inner_begin), 2.0 * static_cast<double>(B - inner_begin), -1.0);
+      const bool may_hold_outermost = !C::two_pieces && highest < boxes.first(B - 1);
+      while (!inner.empty() && (inner.begin() < B + 1 - (C::two_pieces ? K / 2 : K) ||
+                                (!may_hold_outermost && boxes.first(inner.begin()) <= highest))) {
+        inner.leave(B, sum);
       }
-      inner.drop_before(inner_begin - first_inner);
+      inner.drop_reciprocals();
       if constexpr (C::two_pieces) {
         const auto drop_outer = [&]() ACSTUDY_ALWAYS_INLINE {
-          for (; outer_begin < outer_end && (outer_begin < B + 1 - K || highest >= first_cell_in(outer_end));
-               ++outer_begin) {
-            sum.add(*ring_of(1, outer_begin), 2.0 * static_cast<double>(B - outer_begin), -1.0);
+          while (!outer.empty() && (outer.begin() < B + 1 - K || highest >= boxes.first_cell(outer.end()))) {
+            outer.leave(B, sum);
           }
-          outer.drop_before(outer_begin + below);
+          outer.drop_reciprocals();
         };
-        // After a gap many boxes enter at once, more than there is room for, and those that are old leave again.
-        for (; first_cell_in(outer_end + 1) < first_in(B - K / 2); drop_outer()) {
-          Polynomials& own = *ring_of(1, outer_end);
-          take_in<Piece::outside>(first_cell_in(outer_end), first_cell_in(outer_end + 1), center(outer_end), per_radius,
-                                  charge, powers, own);
-          outer.push(powers);
-          sum.add(own, 2.0 * static_cast<double>(B - outer_end), 1.0);
-          ++outer_end;
+        // A box holds the cells that end in it, so that none reaches across the breakpoint from the last one. After a
+        // gap many boxes enter at once, more than there is room for, and those that are old leave again.
+        while (boxes.first_cell(outer.end() + 1) < boxes.first(B - K / 2)) {
+          outer.enter(boxes.first_cell(outer.end()), boxes.first_cell(outer.end() + 1), B, sum, powers);
+          outer.enter_reciprocals(powers);
+          drop_outer();
         }
         drop_outer();
       }
       // Moved sums lose digits by the distance moved; ever so often they are formed anew.
       if (B % (K / 2) == 0) {
         sum.clear();
-        for (std::ptrdiff_t b = inner_begin; b < inner_end; ++b)
-          sum.add(*ring_of(0, b), 2.0 * static_cast<double>(B - b), 1.0);
-        for (std::ptrdiff_t b = outer_begin; b < outer_end; ++b)
-          sum.add(*ring_of(1, b), 2.0 * static_cast<double>(B - b), 1.0);
+        inner.add_to(B, sum);
+        outer.add_to(B, sum);
       }
-      if (p_begin == p_end) continue;
+      if (first == end) continue;
 
-      double local[powers_size] = {};
-      if (!inner.empty()) inner.add_to(1.0, local);
-      if (!outer.empty()) outer.add_to(static_cast<double>(B - outer_end), local);
-      for (int k = 0; k < powers_size; ++k) local[k] *= K;
-      if constexpr (over_terms > 0) {
-        for (int c = 0; c < C::over; ++c) {
-          for (int n = 0; n < over_terms; ++n) local[c * padded_terms + n] += sum.over.coefficient[n * over_width + c];
+      double local[Inner::powers_size] = {};
+      inner.add_reciprocals(1, local);
+      outer.add_reciprocals(B - outer.end(), local);
+      for (double& coefficient : local) coefficient *= static_cast<double>(K);
+      for (int c = 0; c < C::over; ++c) {
+        for (int n = 0; n < Polynomials::over_terms; ++n) {
+          local[c * padded_terms + n] += sum.over.coefficient[n * Polynomials::over_width + c];
         }
       }
-      const std::ptrdiff_t near_box = inner_begin > B - 1 ? inner_begin : B - 1;
-      const Summed summed{first_cell_in(outer_begin),
-                          first_cell_in(outer_end),
-                          first_in(inner_begin),
-                          first_in(near_box),
-                          p_begin,
+      const std::ptrdiff_t near_box = inner.begin() > B - 1 ? inner.begin() : B - 1;
+      const Summed summed{boxes.first_cell(outer.begin()),
+                          boxes.first_cell(outer.end()),
+                          boxes.first(inner.begin()),
+                          boxes.first(near_box),
+                          first,
                           charge};
-      for (std::ptrdiff_t p = p_begin; p < p_end; p += lane_count) {
-        const Vector<s> vector = vector_of(p, p_end);
-        const Lanes t = min((vector.x(order_) - center(B)) * per_radius, spread(1.0));
+      for (std::ptrdiff_t p = first; p < end; p += lane_count) {
+        const Vector<s> vector = vector_of<s>(p, end);
+        const Lanes t = min((vector.x(order_) - boxes.center(B)) * boxes.per_radius(), spread(1.0));
         ChannelSums<C> sums;
 #pragma GCC unroll 4
         for (int c = 0; c < C::over; ++c) {
-          Lanes value = spread(local[c * padded_terms + expansion_terms - 1]);
-#pragma GCC unroll 32
-          for (int n = expansion_terms - 2; n >= 0; --n) value = value * t + local[c * padded_terms + n];
-          sums.over[c] = value;
+          sums.over[c] = polynomial<expansion_terms>(local + c * padded_terms, 1, t);
         }
         if constexpr (C::plain > 0) {
           for (int f = 0; f < C::plain; ++f) {
-            Lanes value = spread(sum.plain.coefficient[(plain_terms - 1) * C::stride + f]);
-            for (int n = plain_terms - 2; n >= 0; --n) value = value * t + sum.plain.coefficient[n * C::stride + f];
-            sums.plain[f] = value;
+            sums.plain[f] = polynomial<Polynomials::plain_terms>(sum.plain.coefficient + f, C::stride, t);
           }
         }
-        direct.add(vector, summed, sums);
+        pair_sums.add(vector, summed, sums);
         finish(vector, sums);
       }
     }
   }
 
+  template <int terms>
+  ACSTUDY_ALWAYS_INLINE static inline Lanes polynomial(const double* coefficient, int stride, Lanes t) {
+    Lanes value = spread(coefficient[(terms - 1) * stride]);
+#pragma GCC unroll 32
+    for (int n = terms - 2; n >= 0; --n) value = value * t + coefficient[n * stride];
+    return value;
+  }
+
   const SweepRange& range_;
   Order<s> order_;
   const double* rows_;
-  double per_delta_;
   Memory& memory_;
   double* outermost_ = nullptr;  ///< by index
 };

@@ -239,7 +239,7 @@ TEST_CASE("Velocities at midpoints may have any few modes, in common or not", "[
 
 TEST_CASE("With hundreds of neighbors the moments of cells keep their digits", "[vector]") {
   const auto scene = random_scene(81);
-  check_forms_agree(scene, irregular_positions(2500, scene->period(), 11), 0.07 * scene->period());
+  check_forms_agree(scene, irregular_positions(2500, scene->period(), 11), 0.06 * scene->period());
 }
 
 namespace {

@@ -12,8 +12,8 @@ namespace acstudy::far {
 namespace {
 
 /// Coefficients in powers of t of the polynomial through exp(-a (1 + t)) at Chebyshev points.
-std::array<double, expansion_terms> exponential_over_box(long double a) {
-  constexpr int n = expansion_terms;
+template <int n>
+std::array<double, n> exponential_over_box(long double a) {
   const auto angle = [](int i) { return std::numbers::pi_v<long double> * (i + 0.5L) / n; };
   std::array<long double, n> T_before{1.0L}, T{}, sum{};
   T[1] = 1.0L;
@@ -33,14 +33,16 @@ std::array<double, expansion_terms> exponential_over_box(long double a) {
 }
 
 /// @param nearest  the distance, in boxes, for which the sum of exponentials begins
-BoxExpansion expansion(const ExponentialSum& sum, double nearest) {
-  BoxExpansion e{};
+template <int terms>
+BoxExpansion<terms> expansion(const ExponentialSum& sum, double nearest) {
+  BoxExpansion<terms> e{};
   e.count = sum.count;
-  e.padded = sum.padded;
+  e.padded_count = sum.padded;
   for (int m = 0; m < sum.padded; ++m) {
     e.rate[m] = sum.rate[m] / nearest;
-    const auto over_box = exponential_over_box(0.5L * e.rate[m]);
-    for (int n = 0; n < expansion_terms; ++n) {
+    e.decay[m] = std::exp(-e.rate[m]);
+    const auto over_box = exponential_over_box<terms>(0.5L * e.rate[m]);
+    for (int n = 0; n < terms; ++n) {
       e.in[n][m] = n % 2 == 0 ? over_box[n] : -over_box[n];
       e.out[m][n] = sum.weight[m] / nearest * over_box[n];
     }
@@ -61,9 +63,11 @@ const BoxTables* box_tables(double neighbors, double per_box) {
   if (k-- == 0) return nullptr;
   std::call_once(computed[k], [&] {
     const int half = boxes[k] / 2;
-    tables[k] = std::make_unique<const BoxTables>(
-        BoxTables{boxes[k], expansion(reciprocal_sum(log2_at_least(boxes[k])), 1.0),
-                  expansion(reciprocal_sum(log2_at_least(half)), 1.0), expansion(reciprocal_sum(1), half)});
+    const auto one_box_apart = [](int up_to) {
+      return expansion<near_terms>(reciprocal_sum(log2_at_least(up_to)), 1.0);
+    };
+    tables[k] = std::make_unique<const BoxTables>(BoxTables{boxes[k], one_box_apart(boxes[k]), one_box_apart(half),
+                                                            expansion<far_terms>(reciprocal_sum(1), half)});
   });
   return tables[k].get();
 }

@@ -86,6 +86,7 @@ struct BoxPolynomials {
 };
 
 /// powers[v][l] = t^(v lane_count + l)
+template <int vectors>
 ACSTUDY_ALWAYS_INLINE inline void monomials(double t, Lanes* powers) {
   Mask exponent;
   for (int l = 0; l < lane_count; ++l) exponent[l] = l;
@@ -97,29 +98,30 @@ ACSTUDY_ALWAYS_INLINE inline void monomials(double t, Lanes* powers) {
     power *= power;
   }
 #pragma GCC unroll 16
-  for (int v = 1; v < padded_terms / lane_count; ++v) powers[v] = powers[v - 1] * power;
+  for (int v = 1; v < vectors; ++v) powers[v] = powers[v - 1] * power;
 }
 
 /// Consecutive boxes whose cells are within one piece of the kernel.
 ///
 /// Of the moment m of a cell, m is a polynomial in the distance z, and m/z is a polynomial and charge/z. The window
 /// keeps both of each box, and the charges of all.
-template <Piece piece, int s, class C>
+template <Piece piece, int terms, int s, class C>
 class BoxWindow {
  public:
   using Polynomials = BoxPolynomials<C>;
-  static constexpr int powers_size = C::over * padded_terms;
+  using Reciprocals = ReciprocalWindow<C::over, terms>;
+  static constexpr int powers_size = Reciprocals::powers_size;
 
   /// Doubles that a window of at most `size` boxes needs.
-  static std::ptrdiff_t memory(const BoxExpansion& expansion, std::ptrdiff_t size) {
-    return ReciprocalWindow<C::over>::memory(expansion, size) + size * polynomials_size;
+  static std::ptrdiff_t memory(const BoxExpansion<terms>& expansion, std::ptrdiff_t size) {
+    return Reciprocals::memory(expansion, size) + size * polynomials_size;
   }
 
   /// @param first    the box to enter first
   /// @param rows     by index
   /// @param charge   of each particle p, to be written
   /// @param memory   at a multiple of 64 bytes
-  BoxWindow(const Boxes<s>& boxes, std::ptrdiff_t first, const BoxExpansion& expansion, std::ptrdiff_t size,
+  BoxWindow(const Boxes<s>& boxes, std::ptrdiff_t first, const BoxExpansion<terms>& expansion, std::ptrdiff_t size,
             double per_delta, const double* rows, double* charge, double* memory)
       : boxes_(boxes),
         first_(first),
@@ -130,7 +132,7 @@ class BoxWindow {
         rows_(rows),
         charge_(charge),
         reciprocals_(expansion, size, memory),
-        polynomials_(memory + ReciprocalWindow<C::over>::memory(expansion, size)) {}
+        polynomials_(memory + Reciprocals::memory(expansion, size)) {}
 
   /// It holds the boxes begin() .. end() - 1.
   std::ptrdiff_t begin() const { return begin_; }
@@ -161,8 +163,9 @@ class BoxWindow {
     drop_reciprocals();
   }
   ACSTUDY_ALWAYS_INLINE inline void drop_reciprocals() { reciprocals_.drop_before(begin_ - first_); }
-  /// local[c][n] += coefficients of sum charge row[c]/s, s in widths of a box, `gap` boxes after the last to enter.
-  ACSTUDY_ALWAYS_INLINE inline void add_reciprocals(std::ptrdiff_t gap, double* local) const {
+  /// local[c * padded(near_terms) + n] += coefficients of sum charge row[c]/s, s in widths of a box, `gap` boxes after
+  /// the last to enter.
+  ACSTUDY_ALWAYS_INLINE inline void add_reciprocals(std::ptrdiff_t gap, double* local) {
     if (!reciprocals_.empty()) reciprocals_.add_to(static_cast<double>(gap), local);
   }
 
@@ -179,7 +182,7 @@ class BoxWindow {
                                             Polynomials& polynomials, double* charge_powers) const {
     using Moment = typename C::Moment;
     constexpr int over_terms = Polynomials::over_terms, plain_terms = Polynomials::plain_terms;
-    constexpr int vectors = padded_terms / lane_count, over_vectors = Polynomials::over_width / lane_count,
+    constexpr int vectors = padded(terms) / lane_count, over_vectors = Polynomials::over_width / lane_count,
                   plain_vectors = C::stride / lane_count;
     const double kappa = per_delta_ / boxes_.per_radius();
     Lanes powers_sum[C::over * vectors] = {};
@@ -211,7 +214,7 @@ class BoxWindow {
         const double* const row = rows_ + s * (p + k) * C::stride;
         charge_[p + k] = charges[lane];
         Lanes power[vectors];
-        monomials(taus[lane], power);
+        monomials<vectors>(taus[lane], power);
 #pragma GCC unroll 4
         for (int c = 0; c < C::over; ++c) {
           const double charge = charges[lane] * row[c];
@@ -248,7 +251,7 @@ class BoxWindow {
   double per_delta_;
   const double* rows_;
   double* charge_;
-  ReciprocalWindow<C::over> reciprocals_;
+  Reciprocals reciprocals_;
   double* polynomials_;  ///< of each box about its own center
 };
 

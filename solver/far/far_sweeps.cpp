@@ -37,16 +37,18 @@ const FarSweeps& far_sweeps() {
 bool far_pays(const UpwindSweep& sweep, double neighbors) {
   switch (sweep.kernel.form) {
     case SweepKernel::Form::inverse:
-      return neighbors >= 192.0;
+      return neighbors >= 160.0;
     case SweepKernel::Form::cubic_spline:
-      return neighbors >= 288.0;
+      return neighbors >= 208.0;
     default:
       return false;
   }
 }
 
 bool far_pays(const SymmetricSweep& sweep, double neighbors) {
-  return sweep.kernel.form == SweepKernel::Form::cubic_spline && sweep.panels.terms == 0 && neighbors >= 288.0;
+  const bool both = sweep.local.u != nullptr && sweep.nonlocal.u != nullptr;
+  return sweep.kernel.form == SweepKernel::Form::cubic_spline && sweep.panels.terms == 0 &&
+         neighbors >= (both ? 256.0 : 208.0);
 }
 
 std::ptrdiff_t range_size(std::ptrdiff_t neighbors) { return std::max<std::ptrdiff_t>(1024, 4 * neighbors); }

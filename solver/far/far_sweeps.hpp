@@ -17,7 +17,7 @@ struct Memory {
 };
 
 /// The far form of the sweeps of one instruction set: the same arguments and results as those of Sweeps, to 1e-14 of
-/// the largest rate.
+/// the largest rate; where a range is many horizons long Model II loses as many units in the last place.
 ///
 /// Numbers depend on where a range begins and ends, by round-off: for the same bits with any number of threads, cut the
 /// ranges in a way that does not follow it, such as by range_size(). `begin` need not be a multiple of anything, and

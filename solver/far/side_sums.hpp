@@ -51,8 +51,8 @@ class SideSums {
 
  private:
   using Polynomials = BoxPolynomials<C>;
-  using Inner = BoxWindow<Piece::inside, s, C>;
-  using Outer = BoxWindow<Piece::outside, s, C>;
+  using Inner = BoxWindow<Piece::inside, near_terms, s, C>;
+  using Outer = BoxWindow<Piece::outside, far_terms, s, C>;
 
   std::ptrdiff_t outermost(std::ptrdiff_t p) const { return static_cast<std::ptrdiff_t>(outermost_[s * p]); }
 
@@ -61,7 +61,7 @@ class SideSums {
     const std::ptrdiff_t K = tables.boxes, size = K + 4, lowest_source = outermost(start);
     const Boxes<s> boxes(order_, range_.delta / static_cast<double>(K), K, lowest_source, start, stop, memory_.boxes);
     double* const charge = memory_.charges.reserve(stop - lowest_source) - lowest_source;
-    const BoxExpansion& expansion = C::two_pieces ? tables.near : tables.whole;
+    const BoxExpansion<near_terms>& expansion = C::two_pieces ? tables.near : tables.whole;
     double* const memory = memory_.moments.reserve(Inner::memory(expansion, size) + Outer::memory(tables.far, size));
     const double per_delta = 1.0 / range_.delta;
     Inner inner(boxes, C::two_pieces ? 1 - K / 2 : boxes.lowest(), expansion, size, per_delta, rows_, charge, memory);
@@ -70,7 +70,7 @@ class SideSums {
     PairSums<s, C> pair_sums(range_, rows_, outermost_, start);
     Polynomials sum;
     sum.clear();
-    // The reciprocals of the box beside the particles' enter a box later than its polynomials: see expansion_terms.
+    // The reciprocals of the box beside the particles' enter a box later than its polynomials: see near_terms.
     double beside[Inner::powers_size], powers[Outer::powers_size];
     bool has_beside = false;
 
@@ -121,7 +121,7 @@ class SideSums {
       for (double& coefficient : local) coefficient *= static_cast<double>(K);
       for (int c = 0; c < C::over; ++c) {
         for (int n = 0; n < Polynomials::over_terms; ++n) {
-          local[c * padded_terms + n] += sum.over.coefficient[n * Polynomials::over_width + c];
+          local[c * padded(near_terms) + n] += sum.over.coefficient[n * Polynomials::over_width + c];
         }
       }
       const std::ptrdiff_t near_box = inner.begin() > B - 1 ? inner.begin() : B - 1;
@@ -137,7 +137,7 @@ class SideSums {
         ChannelSums<C> sums;
 #pragma GCC unroll 4
         for (int c = 0; c < C::over; ++c) {
-          sums.over[c] = polynomial<expansion_terms>(local + c * padded_terms, 1, t);
+          sums.over[c] = polynomial<near_terms>(local + c * padded(near_terms), 1, t);
         }
         if constexpr (C::plain > 0) {
           for (int f = 0; f < C::plain; ++f) {

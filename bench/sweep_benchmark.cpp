@@ -103,10 +103,10 @@ void per_particle(benchmark::State& state, Sweep sweep) {
 /// A far sweep, in ranges as the solver cuts them.
 template <class Far, class Sweep>
 std::int64_t in_ranges(Far far_sweep, SweepRange range, const Sweep& sweep, far::Memory& memory) {
-  const std::ptrdiff_t neighbors = std::lround(range.delta / period * static_cast<double>(range.end));
+  const std::ptrdiff_t size = far::range_size(range.end, range.delta / period * static_cast<double>(range.end));
   std::int64_t pairs = 0;
   for (const std::ptrdiff_t end = range.end; range.begin < end; range.begin = range.end) {
-    range.end = std::min(range.begin + far::range_size(neighbors), end);
+    range.end = std::min(range.begin + size, end);
     pairs += far_sweep(range, sweep, memory);
   }
   return pairs;

@@ -260,7 +260,7 @@ Case far_case(const std::shared_ptr<const Scene>& scene, int model, const char* 
     sweep.kernel.form = form;
     REQUIRE(far::far_pays(sweep, neighbors));
   }
-  REQUIRE(far::range_size(static_cast<std::ptrdiff_t>(neighbors)) < c.N / 2);
+  REQUIRE(far::range_size(c.N, neighbors) < c.N / 2);
   return c;
 }
 std::vector<Case> far_cases(const std::shared_ptr<const Scene>& scene) {

@@ -1,6 +1,7 @@
 #include "solver/far/far_sweeps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -51,6 +52,10 @@ bool far_pays(const SymmetricSweep& sweep, double neighbors) {
          neighbors >= (both ? 256.0 : 208.0);
 }
 
-std::ptrdiff_t range_size(std::ptrdiff_t neighbors) { return std::max<std::ptrdiff_t>(1024, 4 * neighbors); }
+std::ptrdiff_t range_size(std::ptrdiff_t count, double neighbors) {
+  const double wanted = std::max(1024.0, 4.0 * neighbors);
+  const auto ranges = std::max<std::ptrdiff_t>(1, std::lround(static_cast<double>(count) / wanted));
+  return (count / ranges / 8 + 1) * 8;
+}
 
 }  // namespace acstudy::far

@@ -38,7 +38,8 @@ const FarSweeps& far_sweeps();
 bool far_pays(const UpwindSweep& sweep, double neighbors);
 bool far_pays(const SymmetricSweep& sweep, double neighbors);
 
-/// How many particles a range should have at least: filling its first window takes as long as to sum a quarter as many.
-std::ptrdiff_t range_size(std::ptrdiff_t neighbors);
+/// How many particles a range should have: equal parts of `count`, each of some four windows of `neighbors` on a side,
+/// since filling the first window takes as long as to sum a quarter as many; a multiple of eight.
+std::ptrdiff_t range_size(std::ptrdiff_t count, double neighbors);
 
 }  // namespace acstudy::far

@@ -36,7 +36,8 @@ class FarSymmetric {
     const std::ptrdiff_t begin = range_.begin, end = range_.end;
     return SideSums<+1, Sums>(range_, rows, memory_).run(begin, end, [&](const auto& vector, const auto& sums) {
       const Totals totals = totals_of(vector, sums, -1.0);
-      for (int k = 0; k < kept; ++k) vector.write(totals.value[k], left_[k]);
+      // In walking order, what stands behind those that are meant is written over.
+      for (int k = 0; k < kept; ++k) store(left_[k] + vector.lowest_index(), totals.value[k]);
     }) + SideSums<-1, Sums>(range_, rows, memory_).run(1 - end, 1 - begin, [&](const auto& vector, const auto& sums) {
       finish(vector, totals_of(vector, sums, +1.0));
     });

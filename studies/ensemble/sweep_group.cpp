@@ -157,7 +157,7 @@ void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
     const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
     if (far::far_pays(sweep, neighbors)) {
       // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
-      const std::ptrdiff_t size = far::range_size(static_cast<std::ptrdiff_t>(neighbors));
+      const std::ptrdiff_t size = far::range_size(count, neighbors);
       each_range(size, [&, size](const Piece& piece) {
         thread_local far::Memory memory;
         for (std::ptrdiff_t begin = piece.begin; begin < piece.end; begin += size) {

@@ -135,17 +135,21 @@ TEST_CASE("Boxes that are one box apart see each other's particles to round-off,
     return largest;
   };
   constexpr double per_box = 16.0;
-  CHECK(far::box_tables(7.9 * per_box, per_box) == nullptr);
+  CHECK(far::box_tables<true>(7.9 * per_box, per_box) == nullptr);
   for (const int boxes : {8, 24, 256}) {
     CAPTURE(boxes);
-    const far::BoxTables* const tables = far::box_tables(boxes * per_box, per_box);
-    REQUIRE(tables != nullptr);
-    REQUIRE(tables->boxes == boxes);
-    CHECK(error(tables->whole, 1, boxes - 2, far::near_terms) <= 5e-15);
-    CHECK(error(tables->near, 1, boxes / 2 - 2, far::near_terms) <= 5e-15);
-    CHECK(error(tables->far, boxes / 2, boxes - 2, far::far_terms) <= 5e-15);
-    CHECK(error(tables->whole, 1, boxes - 2, far::near_terms - 4) > 1e-12);
-    if (boxes == 8) CHECK(error(tables->far, boxes / 2, boxes - 2, far::far_terms - 6) > 1e-12);
+    using OnePiece = far::BoxTables<false>;
+    using TwoPieces = far::BoxTables<true>;
+    const OnePiece* const one = far::box_tables<false>(boxes * per_box, per_box);
+    const TwoPieces* const two = far::box_tables<true>(boxes * per_box, per_box);
+    REQUIRE((one != nullptr && two != nullptr));
+    REQUIRE((one->boxes == boxes && two->boxes == boxes));
+    CHECK(error(one->inner, 1, boxes - 2, OnePiece::inner_terms) <= 5e-15);
+    CHECK(error(one->inner, 1, boxes - 2, OnePiece::inner_terms - 4) > 1e-12);
+    CHECK(error(two->inner, 1, boxes / 2 - 2, TwoPieces::inner_terms) <= 5e-12);
+    CHECK(error(two->inner, 2, boxes / 2 - 2, TwoPieces::inner_terms) <= 1e-14);
+    CHECK(error(two->outer, boxes / 2, boxes - 2, TwoPieces::outer_terms) <= 5e-15);
+    if (boxes == 8) CHECK(error(two->outer, boxes / 2, boxes - 2, TwoPieces::outer_terms - 6) > 1e-12);
   }
 }
 

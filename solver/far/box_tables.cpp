@@ -52,24 +52,38 @@ BoxExpansion<terms> expansion(const ExponentialSum& sum, double nearest) {
 
 int log2_at_least(int boxes) { return static_cast<int>(std::bit_width(static_cast<unsigned>(boxes - 1))); }
 
+template <int terms>
+BoxExpansion<terms> from_one_box_apart(int up_to) {
+  return expansion<terms>(reciprocal_sum(log2_at_least(up_to)), 1.0);
+}
+
+template <bool two_pieces>
+BoxTables<two_pieces> tables_of(int boxes) {
+  using Tables = BoxTables<two_pieces>;
+  if constexpr (two_pieces) {
+    const int half = boxes / 2;
+    return {boxes, from_one_box_apart<Tables::inner_terms>(half),
+            expansion<Tables::outer_terms>(reciprocal_sum(1), half)};
+  } else {
+    return {boxes, from_one_box_apart<Tables::inner_terms>(boxes)};
+  }
+}
+
 }  // namespace
 
-const BoxTables* box_tables(double neighbors, double per_box) {
+template <bool two_pieces>
+const BoxTables<two_pieces>* box_tables(double neighbors, double per_box) {
   constexpr std::array boxes{8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
-  static std::array<std::unique_ptr<const BoxTables>, boxes.size()> tables;
+  static std::array<std::unique_ptr<const BoxTables<two_pieces>>, boxes.size()> tables;
   static std::array<std::once_flag, boxes.size()> computed;
   std::size_t k = 0;
   while (k < boxes.size() && neighbors >= per_box * boxes[k]) ++k;
   if (k-- == 0) return nullptr;
-  std::call_once(computed[k], [&] {
-    const int half = boxes[k] / 2;
-    const auto one_box_apart = [](int up_to) {
-      return expansion<near_terms>(reciprocal_sum(log2_at_least(up_to)), 1.0);
-    };
-    tables[k] = std::make_unique<const BoxTables>(BoxTables{boxes[k], one_box_apart(boxes[k]), one_box_apart(half),
-                                                            expansion<far_terms>(reciprocal_sum(1), half)});
-  });
+  std::call_once(computed[k],
+                 [&] { tables[k] = std::make_unique<const BoxTables<two_pieces>>(tables_of<two_pieces>(boxes[k])); });
   return tables[k].get();
 }
+template const BoxTables<false>* box_tables<false>(double, double);
+template const BoxTables<true>* box_tables<true>(double, double);
 
 }  // namespace acstudy::far

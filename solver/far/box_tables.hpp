@@ -7,9 +7,6 @@
 
 namespace acstudy::far {
 
-/// Coefficients of the polynomials by which particles are seen from a box, and a box by particles, for a relative error
-/// of 1e-15: of boxes that are at least one box apart, and of those that are at least four.
-inline constexpr int near_terms = 20, far_terms = 14;
 /// With zeros up to a multiple of the lanes.
 constexpr int padded(int terms) { return (terms + 7) / 8 * 8; }
 
@@ -28,16 +25,33 @@ struct BoxExpansion {
   alignas(64) double out[ExponentialSum::capacity][padded(terms)];
 };
 
-/// The expansions of a horizon of so many boxes.
-struct BoxTables {
+/// The expansions of a horizon of so many boxes, for kernels of one piece and of two. With as many terms as they have,
+/// what is lost is round-off.
+template <bool two_pieces>
+struct BoxTables;
+
+template <>
+struct BoxTables<false> {
+  static constexpr int inner_terms = 20;
   int boxes;
-  BoxExpansion<near_terms> whole;  ///< from one box apart up to the horizon
-  BoxExpansion<near_terms> near;   ///< from one box apart up to half of it
-  BoxExpansion<far_terms> far;     ///< from half of the horizon up to all of it
+  BoxExpansion<inner_terms> inner;  ///< from one box apart up to the horizon
+};
+
+template <>
+struct BoxTables<true> {
+  /// Of the inner piece m/z is a polynomial but for a small part: some 1e-12 of that are lost between boxes that are
+  /// one box apart, and round-off between others.
+  static constexpr int inner_terms = 16;
+  static constexpr int outer_terms = 14;
+  int boxes;
+  BoxExpansion<inner_terms> inner;  ///< from one box apart up to half of the horizon
+  BoxExpansion<outer_terms> outer;  ///< from half of the horizon up to all of it
 };
 
 /// Tables for boxes of about `per_box` particles, where a horizon holds so many neighbors on a side; null where they
-/// are too few for boxes to be worth anything. Computed at the first call and kept; safe to call from several threads.
-const BoxTables* box_tables(double neighbors, double per_box);
+/// are too few for boxes to be worth anything. Computed at the first call, in some 20 milliseconds, and kept; safe to
+/// call from several threads.
+template <bool two_pieces>
+const BoxTables<two_pieces>* box_tables(double neighbors, double per_box);
 
 }  // namespace acstudy::far

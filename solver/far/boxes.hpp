@@ -163,10 +163,10 @@ class BoxWindow {
     drop_reciprocals();
   }
   ACSTUDY_ALWAYS_INLINE inline void drop_reciprocals() { reciprocals_.drop_before(begin_ - first_); }
-  /// local[c * padded(near_terms) + n] += coefficients of sum charge row[c]/s, s in widths of a box, `gap` boxes after
+  /// local[c * stride + n] += coefficients of sum charge row[c]/s, s in widths of a box, `gap` boxes after
   /// the last to enter.
-  ACSTUDY_ALWAYS_INLINE inline void add_reciprocals(std::ptrdiff_t gap, double* local) {
-    if (!reciprocals_.empty()) reciprocals_.add_to(static_cast<double>(gap), local);
+  ACSTUDY_ALWAYS_INLINE inline void add_reciprocals(std::ptrdiff_t gap, double* local, int stride) {
+    if (!reciprocals_.empty()) reciprocals_.add_to(static_cast<double>(gap), local, stride);
   }
 
  private:
@@ -253,6 +253,15 @@ class BoxWindow {
   double* charge_;
   Reciprocals reciprocals_;
   double* polynomials_;  ///< of each box about its own center
+};
+
+/// In place of the outer window of a kernel that has one piece.
+struct NoWindow {
+  static constexpr std::ptrdiff_t begin() { return 0; }
+  static constexpr std::ptrdiff_t end() { return 0; }
+  template <class Polynomials>
+  void add_to(std::ptrdiff_t, Polynomials&) const {}
+  void add_reciprocals(std::ptrdiff_t, double*, int) {}
 };
 
 }  // namespace ACSTUDY_ISA

@@ -60,7 +60,7 @@ ExponentialSum fitted(const Candidates& candidates, long double ratio, int count
     sum.rate[m] = static_cast<double>(r[m]);
     sum.weight[m] = static_cast<double>(w[m] * r[m]);
   }
-  const Vector fine = distances(ratio, 1000);
+  const Vector fine = distances(ratio, 500);
   for (const long double s : fine) {
     long double value = 0.0L;
     for (int m = 0; m < count; ++m) value += sum.weight[m] * std::exp(-s * sum.rate[m]);

@@ -13,7 +13,7 @@ namespace acstudy::far {
 
 /// What one thread keeps from sweep to sweep. A sweep uses it alone.
 struct Memory {
-  Scratch outermost, boxes, moments, charges, rows, one_side;
+  Scratch outermost, boxes, inner, outer, charges, rows, one_side;
 };
 
 /// The far form of the sweeps of one instruction set: the same arguments and results as those of Sweeps, to 1e-14 of

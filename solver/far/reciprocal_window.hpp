@@ -61,8 +61,9 @@ class ReciprocalWindow {
     while (oldest_ < number && !empty()) pop();
   }
 
-  /// local[c][n] += coefficients in t of the sums over a box that begins `gap` boxes after the end of the window.
-  ACSTUDY_ALWAYS_INLINE inline void add_to(double gap, double* local) {
+  /// local[c * stride + n] += coefficients in t of the sums over a box that begins `gap` boxes after the end of the
+  /// window.
+  ACSTUDY_ALWAYS_INLINE inline void add_to(double gap, double* local, int stride) {
     const double* const decay = until_.over(gap);
     double at_box[channels * ExponentialSum::capacity];
     for (int m = 0; m < e_.padded_count; m += lane_count) {
@@ -83,7 +84,7 @@ class ReciprocalWindow {
     for (int c = 0; c < channels; ++c) {
 #pragma GCC unroll 16
       for (int v = 0; v < vectors; ++v) {
-        double* const to = local + c * padded(near_terms) + v * lane_count;
+        double* const to = local + c * stride + v * lane_count;
         store(to, load(to) + sum[c * vectors + v]);
       }
     }

@@ -34,7 +34,7 @@ class SideSums {
     outermost_ = s > 0 ? lowest_index - start : lowest_index + stop - 1;
     const std::int64_t pairs = find_outermost<s>(order_, range_.inside, start, stop, outermost_);
     const double neighbors = static_cast<double>(pairs) / static_cast<double>(stop - start);
-    const BoxTables* const tables = stop - start < 32 ? nullptr : box_tables(neighbors, C::per_box);
+    const Tables* const tables = stop - start < 32 ? nullptr : box_tables<C::two_pieces>(neighbors, C::per_box);
     if (tables == nullptr) {
       PairSums<s, C> pair_sums(range_, rows_, outermost_, start);
       for (std::ptrdiff_t p = start; p < stop; p += lane_count) {
@@ -51,27 +51,36 @@ class SideSums {
 
  private:
   using Polynomials = BoxPolynomials<C>;
-  using Inner = BoxWindow<Piece::inside, near_terms, s, C>;
-  using Outer = BoxWindow<Piece::outside, far_terms, s, C>;
+  using Tables = BoxTables<C::two_pieces>;
+  using Inner = BoxWindow<Piece::inside, Tables::inner_terms, s, C>;
+  /// Coefficients of a polynomial of m/z.
+  static constexpr int terms = Tables::inner_terms, stride = padded(terms);
 
   std::ptrdiff_t outermost(std::ptrdiff_t p) const { return static_cast<std::ptrdiff_t>(outermost_[s * p]); }
 
   template <class Finish>
-  void by_boxes(const BoxTables& tables, std::ptrdiff_t start, std::ptrdiff_t stop, Finish&& finish) {
+  void by_boxes(const Tables& tables, std::ptrdiff_t start, std::ptrdiff_t stop, Finish&& finish) {
     const std::ptrdiff_t K = tables.boxes, size = K + 4, lowest_source = outermost(start);
     const Boxes<s> boxes(order_, range_.delta / static_cast<double>(K), K, lowest_source, start, stop, memory_.boxes);
     double* const charge = memory_.charges.reserve(stop - lowest_source) - lowest_source;
-    const BoxExpansion<near_terms>& expansion = C::two_pieces ? tables.near : tables.whole;
-    double* const memory = memory_.moments.reserve(Inner::memory(expansion, size) + Outer::memory(tables.far, size));
     const double per_delta = 1.0 / range_.delta;
-    Inner inner(boxes, C::two_pieces ? 1 - K / 2 : boxes.lowest(), expansion, size, per_delta, rows_, charge, memory);
-    Outer outer(boxes, boxes.lowest(), tables.far, size, per_delta, rows_, charge,
-                memory + Inner::memory(expansion, size));
+    Inner inner(boxes, C::two_pieces ? 1 - K / 2 : boxes.lowest(), tables.inner, size, per_delta, rows_, charge,
+                memory_.inner.reserve(Inner::memory(tables.inner, size)));
+    auto outer = [&] {
+      if constexpr (C::two_pieces) {
+        using Outer = BoxWindow<Piece::outside, Tables::outer_terms, s, C>;
+        return Outer(boxes, boxes.lowest(), tables.outer, size, per_delta, rows_, charge,
+                     memory_.outer.reserve(Outer::memory(tables.outer, size)));
+      } else {
+        return NoWindow{};
+      }
+    }();
     PairSums<s, C> pair_sums(range_, rows_, outermost_, start);
     Polynomials sum;
     sum.clear();
-    // The reciprocals of the box beside the particles' enter a box later than its polynomials: see near_terms.
-    double beside[Inner::powers_size], powers[Outer::powers_size];
+    // The reciprocals of the box beside the particles' enter a box later than its polynomials: their expansions need a
+    // box between.
+    double beside[Inner::powers_size];
     bool has_beside = false;
 
     for (std::ptrdiff_t B = 0; B <= boxes.highest(); ++B) {
@@ -100,6 +109,7 @@ class SideSums {
         };
         // A box holds the cells that end in it, so that none reaches across the breakpoint from the last one. After a
         // gap many boxes enter at once, more than there is room for, and those that are old leave again.
+        double powers[decltype(outer)::powers_size];
         while (boxes.first_cell(outer.end() + 1) < boxes.first(B - K / 2)) {
           outer.enter(boxes.first_cell(outer.end()), boxes.first_cell(outer.end() + 1), B, sum, powers);
           outer.enter_reciprocals(powers);
@@ -115,13 +125,13 @@ class SideSums {
       }
       if (first == end) continue;
 
-      double local[Inner::powers_size] = {};
-      inner.add_reciprocals(1, local);
-      outer.add_reciprocals(B - outer.end(), local);
+      double local[C::over * stride] = {};
+      inner.add_reciprocals(1, local, stride);
+      outer.add_reciprocals(B - outer.end(), local, stride);
       for (double& coefficient : local) coefficient *= static_cast<double>(K);
       for (int c = 0; c < C::over; ++c) {
         for (int n = 0; n < Polynomials::over_terms; ++n) {
-          local[c * padded(near_terms) + n] += sum.over.coefficient[n * Polynomials::over_width + c];
+          local[c * stride + n] += sum.over.coefficient[n * Polynomials::over_width + c];
         }
       }
       const std::ptrdiff_t near_box = inner.begin() > B - 1 ? inner.begin() : B - 1;
@@ -137,7 +147,7 @@ class SideSums {
         ChannelSums<C> sums;
 #pragma GCC unroll 4
         for (int c = 0; c < C::over; ++c) {
-          sums.over[c] = polynomial<near_terms>(local + c * padded(near_terms), 1, t);
+          sums.over[c] = polynomial<terms>(local + c * stride, 1, t);
         }
         if constexpr (C::plain > 0) {
           for (int f = 0; f < C::plain; ++f) {
@@ -150,11 +160,11 @@ class SideSums {
     }
   }
 
-  template <int terms>
-  ACSTUDY_ALWAYS_INLINE static inline Lanes polynomial(const double* coefficient, int stride, Lanes t) {
-    Lanes value = spread(coefficient[(terms - 1) * stride]);
+  template <int count>
+  ACSTUDY_ALWAYS_INLINE static inline Lanes polynomial(const double* coefficient, int step, Lanes t) {
+    Lanes value = spread(coefficient[(count - 1) * step]);
 #pragma GCC unroll 32
-    for (int n = terms - 2; n >= 0; --n) value = value * t + coefficient[n * stride];
+    for (int n = count - 2; n >= 0; --n) value = value * t + coefficient[n * step];
     return value;
   }
 

@@ -211,10 +211,13 @@ def _draw_along_N(panel, curves, styles, inches):
     panel.set_title("$N$ at fixed horizon or ratio", fontsize=11)
     panel.set_xlabel("$N$")
     _limits(panel, every, inches)
+    # Above the highest lines, below all others: between them there may be no room.
+    top = max(paths, key=lambda path: max(y[-1] for _, y in paths[path]))
     for path, group in paths.items():
-        curve, highest = max(group, key=lambda one: one[1][-1])
-        panel.annotate(names.path_math(path), (curve.N[-1], highest[-1]), xytext=(-8, 0), textcoords="offset points",
-                       ha="right", va="center", fontsize=10)
+        curve, y = (max if path == top else min)(group, key=lambda one: one[1][-1])
+        offset, va = ((-8, 0), "center") if path == top else ((2, -9), "top")
+        panel.annotate(names.path_math(path), (curve.N[-1], y[-1]), xytext=offset, textcoords="offset points",
+                       ha="right", va=va, fontsize=10)
     _slopes(panel, (1, 2))
 
 

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "solver/vector/clones.hpp"
-#include "studies/stopwatch.hpp"
 
 namespace acstudy {
 
@@ -134,7 +133,7 @@ void SharedParticles::move(double t, const AndThen& and_then) {
   if (there && !and_then) return;
   const bool each_alone = trajectories_ && trajectories_->closed_form() && t != 0.0;
   if (!there && !each_alone) {
-    timed(positions_seconds, [&] {
+    team_.timed(positions_seconds, [&] {
       const auto now = positions(t);
       std::copy(now.begin(), now.end(), x.values().begin());
     });
@@ -152,7 +151,7 @@ void SharedParticles::move(double t, const AndThen& and_then) {
     if (and_then) and_then(piece, laps);
   });
   if (there) return;
-  timed(positions_seconds, [&] {
+  team_.timed(positions_seconds, [&] {
     wrap_positions();
     smallest_gap_ = smallest.all(smaller);
     // Between the pieces, and from the last particle to the first.
@@ -167,7 +166,7 @@ void SharedParticles::move(double t, const AndThen& and_then) {
       throw std::domain_error("particles have crossed: positions no longer increase within one period");
     }
   });
-  timed(velocities_seconds, [&] { wrap_fields(); });
+  team_.timed(velocities_seconds, [&] { wrap_fields(); });
   t_ = t;
   ++times_moved_;
 }

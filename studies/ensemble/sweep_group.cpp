@@ -7,7 +7,6 @@
 #include "solver/vector/clones.hpp"
 #include "studies/kernel_choice.hpp"
 #include "studies/scheme.hpp"
-#include "studies/stopwatch.hpp"
 
 namespace acstudy {
 
@@ -99,7 +98,7 @@ void SweepGroup::rates(Team& team, const AndThen& and_then) {
 
 void SweepGroup::sweep_standing(Team& team, const AndThen& and_then) {
   const std::ptrdiff_t lanes = sweeps().lanes;
-  timed(seconds, [&] {
+  team.timed(seconds, [&] {
     for (SweptValues* values : {local_, nonlocal_}) {
       if (values != nullptr) values->u.wrap(standing_->reach);
     }
@@ -133,7 +132,7 @@ void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
   };
   const auto begin_of = [](const PeriodicArray& field) { return field.size() > 0 ? field.at(0) : nullptr; };
   SweepScheme local, nonlocal;
-  timed(seconds, [&] {
+  team.timed(seconds, [&] {
     local = scheme(local_);
     nonlocal = scheme(nonlocal_);
   });

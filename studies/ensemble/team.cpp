@@ -91,7 +91,7 @@ void Team::take_pieces(std::size_t own) {
     for (;;) {
       const std::ptrdiff_t begin = part.next.fetch_add(piece_);
       if (begin >= part.end) break;
-      (*work_)({begin, std::min(begin + piece_, part.end), own});
+      (*work_)({begin, std::min(begin + piece_, part.end), own, own == 0 ? weight_ : 0.0});
     }
   }
 }

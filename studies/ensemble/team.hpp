@@ -12,12 +12,15 @@
 #include <thread>
 #include <vector>
 
+#include "studies/stopwatch.hpp"
+
 namespace acstudy {
 
 /// A part of a range of particles, small enough that what one step of a pass leaves of it is in the cache for the next.
 struct Piece {
   std::ptrdiff_t begin, end;
   std::size_t thread;  ///< who has it; 0 is the caller
+  double weight;       ///< how many passes its times stand for; 0: they are not taken
 
   std::ptrdiff_t size() const { return end - begin; }
   /// The piece's part of an array over all particles.
@@ -46,6 +49,18 @@ class Team {
   /// The size of these pieces, but for the last one.
   std::ptrdiff_t piece_size(std::ptrdiff_t count, std::ptrdiff_t grain) const;
 
+  /// From now on the times of a pass stand for so many passes; 0: none are taken. The clock takes a tenth of a short
+  /// pass.
+  void weigh(double weight) { weight_ = weight; }
+  /// Adds to `seconds` how long `work` takes, by weight.
+  template <class Work_>
+  void timed(double& seconds, Work_&& work) const {
+    if (weight_ == 0.0) return void(work());
+    double own = 0.0;
+    acstudy::timed(own, work);
+    seconds += weight_ * own;
+  }
+
  private:
   /// One thread's part of the range: what is not yet taken of it.
   struct alignas(64) Part {
@@ -61,6 +76,7 @@ class Team {
   std::atomic<bool> ends_{false};
   std::vector<Part> parts_;
   std::ptrdiff_t piece_ = 0;
+  double weight_ = 1.0;
   const Work* work_ = nullptr;
 };
 
@@ -89,19 +105,19 @@ class PerThread {
 /// Tells apart what the parts of a pass take: by the clock of the caller, who does the same as all others.
 class Laps {
  public:
-  explicit Laps(const Piece& piece) : timed_(piece.thread == 0) {
-    if (timed_) last_ = std::chrono::steady_clock::now();
+  explicit Laps(const Piece& piece) : weight_(piece.weight) {
+    if (weight_ > 0.0) last_ = std::chrono::steady_clock::now();
   }
-  /// Adds the time since the last call to a part.
+  /// Adds the time since the last call to a part, by weight.
   void end_of(double& part_seconds) {
-    if (!timed_) return;
+    if (weight_ == 0.0) return;
     const auto now = std::chrono::steady_clock::now();
-    part_seconds += std::chrono::duration<double>(now - last_).count();
+    part_seconds += weight_ * std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
 
  private:
-  bool timed_;
+  double weight_;
   std::chrono::steady_clock::time_point last_;
 };
 

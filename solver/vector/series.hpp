@@ -25,34 +25,38 @@ inline void at_all_points(const double* cosine, const double* sine, double* out,
   for (std::ptrdiff_t k = i; k < count; ++k) out[k] = last[k - i];
 }
 
-/// Clenshaw's rule, for few modes: with b_n = a_n + 2 cos(w x) b_{n+1} - b_{n+2} a sum of a_n cos(n w x) from n = 0 on
-/// is a_0 + cos(w x) b_1 - b_2, and one of a_n sin(n w x) is sin(w x) b_1. Coefficients stay in registers.
+/// For few modes: with cos(n w x) = T_n(C) and sin(n w x) = S U_{n-1}(C), the polynomials of Chebyshev, the series is
+/// P(C) + S Q(C), whose coefficients stay in registers.
 template <int highest>
 inline void evaluate_few_modes(const SweepSeries& series, const double* cosine, const double* sine, double* out,
                                std::ptrdiff_t count) {
-  Lanes a[highest + 1], b[highest + 1];
+  double P[highest + 1] = {series.constant}, Q[highest + 1] = {};
+  double T_before[highest + 1] = {1.0}, T[highest + 1] = {0.0, 1.0}, U_before[highest + 1] = {}, U[highest + 1] = {1.0};
   for (int n = 1; n <= highest; ++n) {
-    a[n] = spread(series.cosine[n - 1]);
-    b[n] = spread(series.sine[n - 1]);
-  }
-  const Lanes constant = spread(series.constant);
-  at_all_points(cosine, sine, out, count, [&](Lanes C, Lanes S) {
-    const Lanes twice = C + C;
-    Lanes of_cosine = a[highest], of_cosine_after = {}, of_sine = b[highest], of_sine_after = {};
-    for (int n = highest - 1; n > 0; --n) {
-      const Lanes next_of_cosine = (a[n] - of_cosine_after) + twice * of_cosine;
-      const Lanes next_of_sine = (b[n] - of_sine_after) + twice * of_sine;
-      of_cosine_after = of_cosine;
-      of_cosine = next_of_cosine;
-      of_sine_after = of_sine;
-      of_sine = next_of_sine;
+    for (int k = highest; k >= 0; --k) {
+      P[k] += series.cosine[n - 1] * T[k];
+      Q[k] += series.sine[n - 1] * U[k];
+      const double T_next = (k > 0 ? 2.0 * T[k - 1] : 0.0) - T_before[k];
+      const double U_next = (k > 0 ? 2.0 * U[k - 1] : 0.0) - U_before[k];
+      T_before[k] = T[k];
+      U_before[k] = U[k];
+      T[k] = T_next;
+      U[k] = U_next;
     }
-    return (constant - of_cosine_after) + C * of_cosine + S * of_sine;
+  }
+  Lanes p[highest + 1], q[highest];
+  for (int k = 0; k <= highest; ++k) p[k] = spread(P[k]);
+  for (int k = 0; k < highest; ++k) q[k] = spread(Q[k]);
+  at_all_points(cosine, sine, out, count, [&](Lanes C, Lanes S) {
+    Lanes of_C = p[highest], by_S = q[highest - 1];
+    for (int k = highest - 1; k >= 0; --k) of_C = of_C * C + p[k];
+    for (int k = highest - 2; k >= 0; --k) by_S = by_S * C + q[k];
+    return of_C + S * by_S;
   });
 }
 
-/// Horner's rule in e^{i w x}: the real part of sum_n (cosine_n - i sine_n) e^{i n w x}. Clenshaw's loses digits with n
-/// where sin(w x) is small.
+/// Horner's rule in e^{i w x}: the real part of sum_n (cosine_n - i sine_n) e^{i n w x}. Polynomials in C lose digits
+/// with n.
 inline void evaluate_modes(const SweepSeries& series, const double* cosine, const double* sine, double* out,
                            std::ptrdiff_t count) {
   const auto [constant, a, b, highest] = series;

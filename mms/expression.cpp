@@ -441,7 +441,8 @@ std::optional<Expression::Angle> Expression::angle(double factor) const {
     }
   }
   const Node& node = tape_[i];
-  if (node.op != Op::atan2 || !(std::abs(factor - 1.0) <= 1e-15)) return std::nullopt;
+  // Of what depends on x alone, points that are fixed keep the value and not the operands.
+  if (node.op != Op::atan2 || node.depends <= 1U || !(std::abs(factor - 1.0) <= 1e-15)) return std::nullopt;
   return Angle{static_cast<std::size_t>(node.a), static_cast<std::size_t>(node.b)};
 }
 

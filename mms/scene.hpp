@@ -97,6 +97,8 @@ class Trajectories {
 
   /// True if positions are known in closed form, each on its own.
   bool closed_form() const { return at_start_.has_value(); }
+  /// Positions come of their phases.
+  bool by_phases() const { return angle_.has_value(); }
   /// Positions of the particles from number `begin` on, at time t.  @pre closed_form()
   void at(double t, std::size_t begin, std::span<double> x) const {
     scene_.flow()->evaluate(*at_start_, begin, {t}, x);

@@ -20,6 +20,9 @@ namespace acstudy {
 template <class T>
 struct UntouchedZeros {
   using value_type = T;
+  UntouchedZeros() = default;
+  template <class Other>
+  UntouchedZeros(const UntouchedZeros<Other>&) {}
   T* allocate(std::size_t count) {
     if (void* const memory = std::calloc(count, sizeof(T))) return static_cast<T*>(memory);
     throw std::bad_alloc();

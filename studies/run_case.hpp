@@ -44,8 +44,8 @@ struct CaseResult {
   double seconds = 0.0;                          ///< wall time of the whole time loop, median over the repeats
   double seconds_low = 0.0, seconds_high = 0.0;  ///< fastest and slowest repeat
   // Parts of `seconds`, from a sample of the steps if there are many. Where threads share a pass over the particles the
-  // clock of one of them tells its parts apart;
-  // what is in none is the step itself, the set-up, and the wait for other threads.
+  // clock of one of them tells its parts apart; what is in none is the step itself, the set-up, and the wait for other
+  // threads.
   double positions_seconds = 0.0;  ///< where the particles are, and their phases
   double weights_seconds = 0.0;    ///< velocities, windows and weights
   double pairs_seconds = 0.0;      ///< the fluxes and the sums over pairs

@@ -293,9 +293,16 @@ TEST_CASE("With many neighbors, too, swept rates and pairs are those of the read
     const auto N = static_cast<std::size_t>(c.N);
     const auto x = irregular_positions(N, scene->period(), 3);
     const auto u = irregular_values(N, 4);
-    const Swept expected = readable_rates(c, x, u), swept = swept_rates(c, x, u, true);
-    CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
-    CHECK(swept.pairs == expected.pairs);
+    for (const bool nonlocal : {false, true}) {
+      Case form = c;
+      form.scheme.nonlocal_divergence = nonlocal;
+      const Swept expected = readable_rates(form, x, u);
+      for (const bool with_twin : {false, true}) {
+        const Swept swept = swept_rates(form, x, u, with_twin);
+        CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+        CHECK(swept.pairs == expected.pairs);
+      }
+    }
   }
 }
 

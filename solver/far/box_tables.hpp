@@ -8,14 +8,15 @@
 namespace acstudy::far {
 
 /// With zeros up to a multiple of the lanes.
-constexpr int padded(int terms) { return (terms + 7) / 8 * 8; }
+consteval int padded(int terms) { return (terms + 7) / 8 * 8; }
 
 /// 1/s as a sum of exponentials, s in widths of a box, with each exponential as a polynomial over a box:
 ///
 ///   exp(-rate_m (1 - tau)/2) = sum_n in[n][m] tau^n      from a particle at tau to the right edge of its box
 ///   weight_m exp(-rate_m (1 + t)/2) = sum_n out[m][n] t^n   from the left edge of a box to a particle at t
 ///
-/// with tau and t from -1 to 1 over a box. Terms m from `count` to `padded_count`, a multiple of eight, have weight 0.
+/// with tau and t from -1 to 1 over a box; far from it tau may be somewhat less. Terms m from `count` to
+/// `padded_count`, a multiple of eight, have weight 0.
 template <int terms>
 struct BoxExpansion {
   int count, padded_count;

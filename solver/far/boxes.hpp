@@ -105,7 +105,7 @@ ACSTUDY_ALWAYS_INLINE inline void monomials(double t, Lanes* powers) {
 ///
 /// Of the moment m of a cell, m is a polynomial in the distance z, and m/z is a polynomial and charge/z. The window
 /// keeps both of each box, and the charges of all.
-template <Piece piece, int terms, int s, class C>
+template <KernelPiece piece, int terms, int s, class C>
 class BoxWindow {
  public:
   using Polynomials = BoxPolynomials<C>;
@@ -117,10 +117,12 @@ class BoxWindow {
     return Reciprocals::memory(expansion, size) + size * polynomials_size;
   }
 
-  /// @param first    the box to enter first
-  /// @param rows     by index
-  /// @param charge   of each particle p, to be written
-  /// @param memory   at a multiple of 64 bytes
+  /// @param first      the box to enter first
+  /// @param size       the most boxes that it may hold
+  /// @param per_delta  1/delta
+  /// @param charge     of each particle p, to be written if the piece is the inner one
+  /// @param rows       by index
+  /// @param memory     at a multiple of 64 bytes
   BoxWindow(const Boxes<s>& boxes, std::ptrdiff_t first, const BoxExpansion<terms>& expansion, std::ptrdiff_t size,
             double per_delta, const double* rows, double* charge, double* memory)
       : boxes_(boxes),
@@ -212,7 +214,7 @@ class BoxWindow {
       for (int k = 0; k < vector.count; ++k) {
         const int lane = Vector<s>::lane(k);
         const double* const row = rows_ + s * (p + k) * C::stride;
-        charge_[p + k] = charges[lane];
+        if constexpr (piece == KernelPiece::inside) charge_[p + k] = charges[lane];
         Lanes power[vectors];
         monomials<vectors>(taus[lane], power);
 #pragma GCC unroll 4

@@ -19,12 +19,12 @@ inline namespace ACSTUDY_ISA {
 /// The first moment of eta(z) = 1/z.
 struct InverseFirstMoment {
   static constexpr double breakpoint = InverseLanes::breakpoint;
-  template <Piece piece>
+  template <KernelPiece piece>
   ACSTUDY_ALWAYS_INLINE static inline Lanes within(Lanes z) {
     return InverseLanes{}.first_moment<piece>(z);
   }
   static constexpr int degree = 1;
-  template <Piece>
+  template <KernelPiece>
   static constexpr double primitive(int k) {
     return k == 1 ? 1.0 : 0.0;
   }
@@ -33,36 +33,36 @@ struct InverseFirstMoment {
 /// The first moment of the derivative of the cubic B-spline.
 struct SplineFirstMoment {
   static constexpr double breakpoint = CubicSplineLanes::breakpoint;
-  template <Piece piece>
+  template <KernelPiece piece>
   ACSTUDY_ALWAYS_INLINE static inline Lanes within(Lanes z) {
     return CubicSplineLanes{}.first_moment<piece>(z);
   }
   static constexpr int degree = 4;
-  template <Piece piece>
+  template <KernelPiece piece>
   static constexpr double primitive(int k) {
     constexpr double inside[] = {0.0, 0.0, 0.0, 8.0, -9.0}, outside[] = {0.0, 0.0, 6.0, -8.0, 3.0};
-    return piece == Piece::inside ? inside[k] : outside[k];
+    return piece == KernelPiece::inside ? inside[k] : outside[k];
   }
 };
 
 /// The mass of the derivative of the cubic B-spline.
 struct SplineMass {
   static constexpr double breakpoint = CubicSplineLanes::breakpoint;
-  template <Piece piece>
+  template <KernelPiece piece>
   ACSTUDY_ALWAYS_INLINE static inline Lanes within(Lanes z) {
     return CubicSplineLanes{}.mass<piece>(z);
   }
   static constexpr int degree = 3;
-  template <Piece piece>
+  template <KernelPiece piece>
   static constexpr double primitive(int k) {
     constexpr double inside[] = {0.0, 0.0, 1.0, -1.0}, outside[] = {0.0, 1.0, -1.0, 1.0 / 3.0};
-    return piece == Piece::inside ? inside[k] : outside[k];
+    return piece == KernelPiece::inside ? inside[k] : outside[k];
   }
 };
 
 /// coefficient[n], n < degree: the moment of a cell whose outer edge is at z and whose width is g, as a polynomial in
 /// z.
-template <class M, Piece piece>
+template <class M, KernelPiece piece>
 ACSTUDY_ALWAYS_INLINE inline void moment_coefficients(Lanes g, Lanes* coefficient) {
   // F(z) - F(z - g) = - sum_n z^n sum_{k > n} binomial(k, n) f_k (-g)^(k - n)
 #pragma GCC unroll 4

@@ -55,7 +55,7 @@ bool far_pays(const SymmetricSweep& sweep, double neighbors) {
 std::ptrdiff_t range_size(std::ptrdiff_t count, double neighbors) {
   const double wanted = std::max(1024.0, 4.0 * neighbors);
   const auto ranges = std::max<std::ptrdiff_t>(1, std::lround(static_cast<double>(count) / wanted));
-  return (count / ranges / 8 + 1) * 8;
+  return (count + 8 * ranges - 1) / (8 * ranges) * 8;
 }
 
 }  // namespace acstudy::far

@@ -16,8 +16,9 @@ struct Memory {
   Scratch outermost, boxes, inner, outer, charges, rows, one_side;
 };
 
-/// The far form of the sweeps of one instruction set: the same arguments and results as those of Sweeps, to 1e-14 of
-/// the largest rate; where a range is many horizons long Model II loses as many units in the last place.
+/// The far form of the sweeps of one instruction set: the same arguments and results as those of Sweeps, to 1e-12 of
+/// the largest rate: 1e-14 as a rule; where a range is many horizons long Model II loses as many units in the last
+/// place.
 ///
 /// Numbers depend on where a range begins and ends, by round-off: for the same bits with any number of threads, cut the
 /// ranges in a way that does not follow it, such as by range_size(). `begin` need not be a multiple of anything, and
@@ -38,8 +39,9 @@ const FarSweeps& far_sweeps();
 bool far_pays(const UpwindSweep& sweep, double neighbors);
 bool far_pays(const SymmetricSweep& sweep, double neighbors);
 
-/// How many particles a range should have: equal parts of `count`, each of some four windows of `neighbors` on a side,
-/// since filling the first window takes as long as to sum a quarter as many; a multiple of eight.
+/// How many particles a range should have: parts of `count` as equal as multiples of eight can be, each of some four
+/// windows of `neighbors` on a side, since filling the first window takes as long as to sum a quarter as many, and of
+/// 1024 at least.
 std::ptrdiff_t range_size(std::ptrdiff_t count, double neighbors);
 
 }  // namespace acstudy::far

@@ -69,12 +69,12 @@ class PairSums {
     const Lanes x = some.x;
     find_breakpoint(vector.first, last);
     if (highest >= vector.first || break_end_ > vector.first) {
-      add_some<Piece::any, Piece::any>(some, lowest, last, last, total);
+      add_some<KernelPiece::any, KernelPiece::any>(some, lowest, last, last, total);
       return;
     }
     ChannelSums<C> sums = total;
     std::ptrdiff_t i = highest + 1;
-    const auto up_to = [&]<Piece piece>(std::ptrdiff_t to) ACSTUDY_ALWAYS_INLINE {
+    const auto up_to = [&]<KernelPiece piece>(std::ptrdiff_t to) ACSTUDY_ALWAYS_INLINE {
       add_whole<piece>(x, i, to, sums);
       if (to > i) i = to;
     };
@@ -87,27 +87,28 @@ class PairSums {
                                                                         : i;
     const std::ptrdiff_t first = begin < lowest ? begin : lowest, edge = begin < i ? begin : i;
     if (i <= break_begin_) {
-      add_some<Piece::outside, Piece::outside>(some, first, edge, i, sums);
+      add_some<KernelPiece::outside, KernelPiece::outside>(some, first, edge, i, sums);
     } else if (has_outer) {
-      add_some<Piece::any, Piece::outside>(some, first, edge, i, sums);
+      add_some<KernelPiece::any, KernelPiece::outside>(some, first, edge, i, sums);
     } else {
-      add_some<Piece::any, Piece::inside>(some, first, edge, i, sums);
+      add_some<KernelPiece::any, KernelPiece::inside>(some, first, edge, i, sums);
     }
     if constexpr (C::two_pieces) {
       if (has_outer) {
-        up_to.template operator()<Piece::outside>(summed.outer_begin);
+        up_to.template operator()<KernelPiece::outside>(summed.outer_begin);
         skip_to(summed.outer_end);
       }
-      up_to.template operator()<Piece::outside>(break_begin_ < summed.inner_begin ? break_begin_ : summed.inner_begin);
-      up_to.template operator()<Piece::any>(break_end_ < summed.inner_begin ? break_end_ : summed.inner_begin);
+      up_to.template operator()<KernelPiece::outside>(break_begin_ < summed.inner_begin ? break_begin_
+                                                                                        : summed.inner_begin);
+      up_to.template operator()<KernelPiece::any>(break_end_ < summed.inner_begin ? break_end_ : summed.inner_begin);
     }
-    up_to.template operator()<Piece::inside>(summed.inner_begin);
+    up_to.template operator()<KernelPiece::inside>(summed.inner_begin);
     skip_to(summed.near_begin);
     if (i < summed.near_end) {
       add_charges(x, summed.charge, i, summed.near_end, sums);
       i = summed.near_end;
     }
-    up_to.template operator()<Piece::inside>(vector.first);
+    up_to.template operator()<KernelPiece::inside>(vector.first);
     add_each_others(some, vector.first, last, sums);
     total = sums;
   }
@@ -137,7 +138,7 @@ class PairSums {
   }
 
   /// Neighbors first .. last - 1 of all particles, none of them the outermost, in cells within one piece.
-  template <Piece piece>
+  template <KernelPiece piece>
   ACSTUDY_ALWAYS_INLINE inline void add_whole(Lanes x, std::ptrdiff_t first, std::ptrdiff_t last,
                                               ChannelSums<C>& sums) const {
     if (first >= last) return;
@@ -166,7 +167,8 @@ class PairSums {
                                                     ChannelSums<C>& sums) const {
     for (std::ptrdiff_t i = first; i < last; ++i) {
       const Lanes z = (some.x - order_.x(i)) * per_delta_, z_inner = (some.x - order_.x(i + 1)) * per_delta_;
-      const Lanes m = Moment::template within<Piece::inside>(z) - Moment::template within<Piece::inside>(z_inner);
+      const Lanes m =
+          Moment::template within<KernelPiece::inside>(z) - Moment::template within<KernelPiece::inside>(z_inner);
       const Choice seen = at_most(spread(static_cast<double>(i + 1)), some.p);
       add_cell(select(seen, m, Lanes{}), select(seen, m / z, Lanes{}), i, sums);
     }
@@ -174,7 +176,7 @@ class PairSums {
 
   /// Neighbors first .. last - 1 of some of the particles. Some may be the outermost of a particle, whose cell reaches
   /// to the horizon. Those from `summed` on have been summed as whole cells, within piece `whole`.
-  template <Piece piece, Piece whole>
+  template <KernelPiece piece, KernelPiece whole>
   ACSTUDY_ALWAYS_INLINE inline void add_some(const Some& some, std::ptrdiff_t first, std::ptrdiff_t summed,
                                              std::ptrdiff_t last, ChannelSums<C>& sums) const {
     const auto& [x, p, outer] = some;

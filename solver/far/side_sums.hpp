@@ -52,7 +52,7 @@ class SideSums {
  private:
   using Polynomials = BoxPolynomials<C>;
   using Tables = BoxTables<C::two_pieces>;
-  using Inner = BoxWindow<Piece::inside, Tables::inner_terms, s, C>;
+  using Inner = BoxWindow<KernelPiece::inside, Tables::inner_terms, s, C>;
   /// Coefficients of a polynomial of m/z.
   static constexpr int terms = Tables::inner_terms, stride = padded(terms);
 
@@ -68,7 +68,7 @@ class SideSums {
                 memory_.inner.reserve(Inner::memory(tables.inner, size)));
     auto outer = [&] {
       if constexpr (C::two_pieces) {
-        using Outer = BoxWindow<Piece::outside, Tables::outer_terms, s, C>;
+        using Outer = BoxWindow<KernelPiece::outside, Tables::outer_terms, s, C>;
         return Outer(boxes, boxes.lowest(), tables.outer, size, per_delta, rows_, charge,
                      memory_.outer.reserve(Outer::memory(tables.outer, size)));
       } else {
@@ -100,6 +100,7 @@ class SideSums {
         inner.leave(B, sum);
       }
       inner.drop_reciprocals();
+      int entered = 0;
       if constexpr (C::two_pieces) {
         const auto drop_outer = [&]() ACSTUDY_ALWAYS_INLINE {
           while (!outer.empty() && (outer.begin() < B + 1 - K || highest >= boxes.first_cell(outer.end()))) {
@@ -114,11 +115,13 @@ class SideSums {
           outer.enter(boxes.first_cell(outer.end()), boxes.first_cell(outer.end() + 1), B, sum, powers);
           outer.enter_reciprocals(powers);
           drop_outer();
+          ++entered;
         }
         drop_outer();
       }
-      // Moved sums lose digits by the distance moved; ever so often they are formed anew.
-      if (B % (K / 2) == 0) {
+      // Moved sums lose digits by the distance moved, and by what has come from afar and gone; ever so often, and after
+      // a gap, they are formed anew.
+      if (B % (K / 2) == 0 || entered > 1) {
         sum.clear();
         inner.add_to(B, sum);
         outer.add_to(B, sum);

@@ -34,13 +34,16 @@ class FarSymmetric {
     double* const memory = memory_.one_side.reserve(size * kept) - range_.begin + lane_count;
     for (int k = 0; k < kept; ++k) left_[k] = memory + k * size;
     const std::ptrdiff_t begin = range_.begin, end = range_.end;
-    return SideSums<+1, Sums>(range_, rows, memory_).run(begin, end, [&](const auto& vector, const auto& sums) {
-      const Totals totals = totals_of(vector, sums, -1.0);
-      // In walking order, what stands behind those that are meant is written over.
-      for (int k = 0; k < kept; ++k) store(left_[k] + vector.lowest_index(), totals.value[k]);
-    }) + SideSums<-1, Sums>(range_, rows, memory_).run(1 - end, 1 - begin, [&](const auto& vector, const auto& sums) {
-      finish(vector, totals_of(vector, sums, +1.0));
-    });
+    const std::int64_t left_pairs =
+        SideSums<+1, Sums>(range_, rows, memory_).run(begin, end, [&](const auto& vector, const auto& sums) {
+          const Totals totals = totals_of(vector, sums, -1.0);
+          // In walking order, what stands behind those that are meant is written over.
+          for (int k = 0; k < kept; ++k) store(left_[k] + vector.lowest_index(), totals.value[k]);
+        });
+    return left_pairs +
+           SideSums<-1, Sums>(range_, rows, memory_).run(1 - end, 1 - begin, [&](const auto& vector, const auto& sums) {
+             finish(vector, totals_of(vector, sums, +1.0));
+           });
   }
 
  private:
@@ -61,8 +64,8 @@ class FarSymmetric {
     }
   };
 
-  /// reach, moment, then for each set slope and c_hat, then b.
-  static constexpr int kept = 2 + 2 * sets + 1;
+  /// reach, moment, then for each set slope and c_hat, then b of the nonlocal form.
+  static constexpr int kept = 2 + 2 * sets + (nonlocal ? 1 : 0);
   struct Totals {
     Lanes value[kept];
     Lanes& reach() { return value[0]; }
@@ -74,7 +77,7 @@ class FarSymmetric {
 
   const double* fill_rows() const {
     const auto [first, last] = sources_of(range_.x, range_.inside, range_.begin, range_.end);
-    double* const rows = memory_.rows.reserve((last - first) * Sums::stride + Sums::margin) - first * Sums::stride;
+    double* const rows = memory_.rows.reserve((last - first) * Sums::stride) - first * Sums::stride;
     for (std::ptrdiff_t j = first; j < last; ++j) {
       double* const row = rows + j * Sums::stride;
       row[0] = 1.0;
@@ -117,7 +120,7 @@ class FarSymmetric {
       if constexpr (nonlocal) b += by(b_, 0);
     }
     for (int k = 0; k < sets; ++k) totals.c_hat(k) = sign * c_hat[k];
-    totals.b() = sign * b;
+    if constexpr (nonlocal) totals.b() = sign * b;
     return totals;
   }
 

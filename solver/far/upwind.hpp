@@ -42,16 +42,21 @@ class FarUpwind {
 
   const double* fill_rows() const {
     const auto [first, last] = sources_of(range_.x, range_.inside, range_.begin, range_.end);
-    double* const rows = memory_.rows.reserve((last - first) * Sums::stride + Sums::margin) - first * Sums::stride;
+    const std::ptrdiff_t size = (last - first) * Sums::stride + Sums::margin;
+    double* const memory = memory_.rows.reserve(size);
+    double* const rows = memory - first * Sums::stride;
     for (std::ptrdiff_t j = first; j < last; ++j) {
-      double* row = rows + j * Sums::stride;
-      *row++ = 1.0;
-      if constexpr (local) *row++ = sweep_.local.flux[j];
+      double* const row = rows + j * Sums::stride;
+      int c = 0;
+      row[c++] = 1.0;
+      if constexpr (local) row[c++] = sweep_.local.flux[j];
       if constexpr (nonlocal) {
-        *row++ = sweep_.b[j];
-        *row++ = sweep_.nonlocal.flux[j];
+        row[c++] = sweep_.b[j];
+        row[c++] = sweep_.nonlocal.flux[j];
       }
+      for (; c < Sums::stride; ++c) row[c] = 0.0;
     }
+    for (int k = 0; k < Sums::margin; ++k) memory[size - Sums::margin + k] = 0.0;
     return rows;
   }
 

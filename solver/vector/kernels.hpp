@@ -9,7 +9,7 @@ namespace acstudy {
 inline namespace ACSTUDY_ISA {
 
 /// Where a cell lies: within a piece of the kernel, or possibly across its breakpoint.
-enum class Piece { inside, any, outside };
+enum class KernelPiece { inside, any, outside };
 
 // What the sums ask of a kernel K: its moments within a distance z, in units of the horizon. That of a cell is the
 // difference at its ends. Its round-off is no larger than what the last digit of a neighbor's distance makes, and what
@@ -25,7 +25,7 @@ enum class Piece { inside, any, outside };
 struct InverseLanes {
   static constexpr double breakpoint = 1.0;
   static constexpr double moment_scale = 1.0;
-  template <Piece>
+  template <KernelPiece>
   Lanes first_moment(Lanes z) const {
     return z;
   }
@@ -37,28 +37,28 @@ struct InverseLanes {
 struct CubicSplineLanes {
   static constexpr double breakpoint = 0.5;
 
-  template <Piece piece>
+  template <KernelPiece piece>
   Lanes mass(Lanes z) const {
-    if constexpr (piece == Piece::outside) {
+    if constexpr (piece == KernelPiece::outside) {
       const Lanes rest = 1.0 - z;
       return 1.0 / 6.0 - rest * rest * (1.0 / 3.0 * rest);
     } else {
       const Lanes z_2 = z * z, inner = z_2 - z_2 * z;
-      if constexpr (piece == Piece::inside) return inner;
+      if constexpr (piece == KernelPiece::inside) return inner;
       const Lanes p = max(z - 0.5, Lanes{});
       return inner + p * p * (4.0 / 3.0 * p);
     }
   }
 
   static constexpr double moment_scale = 4.0 / 3.0;
-  template <Piece piece>
+  template <KernelPiece piece>
   Lanes first_moment(Lanes z) const {
-    if constexpr (piece == Piece::outside) {
+    if constexpr (piece == KernelPiece::outside) {
       const Lanes rest = 1.0 - z;
       return 0.75 - rest * rest * rest * (4.0 - 3.0 * rest);
     } else {
       const Lanes inner = z * z * z * (8.0 - 9.0 * z);
-      if constexpr (piece == Piece::inside) return inner;
+      if constexpr (piece == KernelPiece::inside) return inner;
       const Lanes p = max(z - 0.5, Lanes{});
       return inner + p * p * p * (8.0 + 12.0 * p);
     }
@@ -77,11 +77,11 @@ class ScalarLanes {
       : kernel_(kernel), first_moment_(moment_within), mass_(mass_within) {}
 
   static constexpr double moment_scale = 1.0;
-  template <Piece>
+  template <KernelPiece>
   Lanes first_moment(Lanes z) const {
     return each(first_moment_, z);
   }
-  template <Piece>
+  template <KernelPiece>
   Lanes mass(Lanes z) const {
     return each(mass_, z);
   }

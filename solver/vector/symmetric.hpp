@@ -37,8 +37,9 @@ class Symmetric {
       const Lanes viscosity = sweep_.mu * reach;
       const Midpoints midpoints(sweep_, j);
       SymmetricSums sum;
-      const auto mass = [&]<Piece piece>(Lanes z) ACSTUDY_ALWAYS_INLINE { return kernel_.template mass<piece>(z); };
-      const auto add = [&]<Piece piece, int s>(Side<s>& side) ACSTUDY_ALWAYS_INLINE {
+      const auto mass = [&]<KernelPiece piece>(Lanes z)
+                            ACSTUDY_ALWAYS_INLINE { return kernel_.template mass<piece>(z); };
+      const auto add = [&]<KernelPiece piece, int s>(Side<s>& side) ACSTUDY_ALWAYS_INLINE {
         pairs += side.count();
         const Neighbor neighbor = side.neighbor();
         const Lanes m = side.template step<piece>(mass), decay = viscosity / neighbor.distance;

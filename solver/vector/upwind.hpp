@@ -48,10 +48,10 @@ class Upwind {
     const Viewpoint from{load(range_.x + j), inside, range_.delta, 1.0 / range_.delta};
     Side<s> side(range_.x + j, from, counted);
     UpwindSums sum;
-    const auto first_moment = [&]<Piece piece>(Lanes z)
+    const auto first_moment = [&]<KernelPiece piece>(Lanes z)
                                   ACSTUDY_ALWAYS_INLINE { return kernel_.template first_moment<piece>(z); };
     std::int64_t pairs = 0;
-    const auto add = [&]<Piece piece>(Side<s>& there) ACSTUDY_ALWAYS_INLINE {
+    const auto add = [&]<KernelPiece piece>(Side<s>& there) ACSTUDY_ALWAYS_INLINE {
       pairs += there.count();
       const Neighbor neighbor = there.neighbor();
       const Lanes W = there.template step<piece>(first_moment) / neighbor.distance;

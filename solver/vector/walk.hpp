@@ -52,11 +52,11 @@ class Side {
   /// Steps from neighbor k to k + 1. @return moment of the cell of k; 0 in lanes that have no neighbor k
   ///
   /// @param within  a kernel's moment up to z, for cells in this piece of it
-  template <Piece piece, class Within>
+  template <KernelPiece piece, class Within>
   ACSTUDY_ALWAYS_INLINE inline Lanes step(const Within& within) {
     const Lanes next = load_next(), next_distance = distance_of(next);
     Lanes z = neighbor_.distance * from_.per_delta;
-    if constexpr (piece != Piece::inside) {
+    if constexpr (piece != KernelPiece::inside) {
       // The last cell ends at the horizon, beyond which a neighbor that ties with it may stand; all that follow are
       // empty.
       const Choice has_next = at_most(next_distance, from_.inside);
@@ -88,18 +88,19 @@ class Side {
 /// neighbors.
 template <class K, class Add, class... Sides>
 ACSTUDY_ALWAYS_INLINE inline void walk(const Add& add, Sides&... sides) {
-  const auto each = [&]<Piece piece>() ACSTUDY_ALWAYS_INLINE { (add.template operator()<piece>(sides), ...); };
-  while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<Piece::inside>();
+  const auto each = [&]<KernelPiece piece>() ACSTUDY_ALWAYS_INLINE { (add.template operator()<piece>(sides), ...); };
+  while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<KernelPiece::inside>();
   if constexpr (K::breakpoint < 1.0) {
     // Where few neighbors are inside, few are outside, and a loop of their own costs more than it saves.
     const double outside = ((sides.neighbor().k > 4) && ...) ? K::breakpoint : 2.0;
-    while ((sides.goes_on() && ...) && !(sides.begins_beyond(outside) && ...)) each.template operator()<Piece::any>();
-    while ((sides.goes_on() && ...)) each.template operator()<Piece::outside>();
+    while ((sides.goes_on() && ...) && !(sides.begins_beyond(outside) && ...))
+      each.template operator()<KernelPiece::any>();
+    while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::outside>();
   } else {
-    while ((sides.goes_on() && ...)) each.template operator()<Piece::any>();
+    while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::any>();
   }
   const auto rest = [&](auto& side) ACSTUDY_ALWAYS_INLINE {
-    while (side.goes_on()) add.template operator()<Piece::any>(side);
+    while (side.goes_on()) add.template operator()<KernelPiece::any>(side);
   };
   if constexpr (sizeof...(sides) > 1) (rest(sides), ...);
 }

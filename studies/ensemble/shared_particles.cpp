@@ -112,7 +112,9 @@ SharedParticles::SharedParticles(const Scene& scene, std::vector<double> start, 
   needs_.c_and_b |= needs.c_hat && !series_.c_hat;
   const bool by_series = (needs.c_hat && series_.c_hat) || (needs_.c_and_b && (series_.c || series_.b)) ||
                          (needs.b_prime && series_.b_prime);
-  needs_.phases = needs.phases || modes || by_series;
+  // Positions must not differ by what else is needed.
+  const bool by_phases = trajectories_ && trajectories_->by_phases();
+  needs_.phases = needs.phases || modes || by_series || by_phases;
   const auto make = [&](bool needed, auto&... fields) {
     if (needed) ((fields = PeriodicArray(start_.size())), ...);
   };
@@ -160,11 +162,11 @@ void SharedParticles::move(double t, const AndThen& and_then) {
       const std::ptrdiff_t j = std::min(next, count);
       smallest_gap_ = smaller(smallest_gap_, x[j] - x[j - 1]);
     }
-    if (needs_.midpoints && !modes) fit_panels();
     // not (smallest <= 0), so that NaN is refused
     if (!(smallest_gap_ > 0.0)) {
       throw std::domain_error("particles have crossed: positions no longer increase within one period");
     }
+    if (needs_.midpoints && !modes) fit_panels();
   });
   team_.timed(velocities_seconds, [&] { wrap_fields(); });
   t_ = t;

@@ -102,10 +102,13 @@ TEST_CASE("particles come with the phases of their positions, from pieces as fro
   short_period.flow = "atan2(sin(pi*x)*exp(t), cos(pi*x))/pi";
   by_sine.flow = "x + 2*atan2((exp(t) - 1)*sin(x/2)*cos(x/2), cos(x/2)^2 + exp(t)*sin(x/2)^2)";
   translation.flow = "x + 1.5*t";
-  for (const SceneText& text : {paper(), short_period, by_sine, translation}) {
+  SceneText at_rest = with("b", "1e-200*1e-200*x");
+  at_rest.flow = "2*atan2(sin(x/2), cos(x/2))";
+  for (const SceneText& text : {paper(), short_period, by_sine, translation, at_rest}) {
     CAPTURE(*text.flow);
     const Scene scene(text);
-    CHECK(scene.flow()->angle(scene.period() / std::numbers::pi).has_value() == (text.flow->find('x') != 0));
+    const bool moves_as_angle = text.flow->find('x') != 0 && text.flow != at_rest.flow;
+    CHECK(scene.flow()->angle(scene.period() / std::numbers::pi).has_value() == moves_as_angle);
     constexpr std::size_t count = 301;
     Trajectories trajectories(scene, uniform_positions(count, scene.period()));
     std::vector<double> x(count), C(count), S(count), half_C(count), half_S(count);

@@ -215,7 +215,7 @@ def _draw_along_N(panel, curves, styles, inches):
     top = max(paths, key=lambda path: max(y[-1] for _, y in paths[path]))
     for path, group in paths.items():
         curve, y = (max if path == top else min)(group, key=lambda one: one[1][-1])
-        offset, va = ((-8, 0), "center") if path == top else ((2, -9), "top")
+        offset, va = ((-8, 0), "center") if path == top else ((4, -30), "top")
         panel.annotate(names.path_math(path), (curve.N[-1], y[-1]), xytext=offset, textcoords="offset points",
                        ha="right", va=va, fontsize=10)
     _slopes(panel, (1, 2))

@@ -19,6 +19,8 @@ struct Level {
   double variable;
   double error;
   double weight = 1.0;  ///< of the squared relative error; proportional to one over its variance
+  /// Least standard deviation of the relative error that is known beforehand, as that of printed digits; 0: not known.
+  double noise = 0.0;
 };
 
 using LevelView = std::span<const Level>;

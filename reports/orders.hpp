@@ -58,7 +58,10 @@ inline constexpr double extrapolation_tolerance = 0.1;
 inline constexpr double widest_half_width = 0.15;
 
 struct JudgeOptions {
-  double scale = 1.0;  ///< size of the solution; round-off is 1e-12 times this
+  /// Size of the solution; errors below 1e-12 times this are round-off. Not known: a floor has to show in the errors.
+  std::optional<double> scale = {};
+  /// Errors at or below this are known to be no more than a floor of round-off, quadrature or iteration.
+  std::optional<double> floor = {};
 };
 
 /// Judges errors under refinement against theory's order.

@@ -356,7 +356,8 @@ Judgement judge(std::span<const Level> levels, double theory_order, const JudgeO
                               std::log(levels[i - 1].variable / levels[i].variable));
   }
   result.window = {0, levels.empty() ? 0 : levels.size() - 1};
-  std::optional<Conclusion> conclusion = unusable(levels, std::max(options.floor.value_or(0.0), round_off * options.scale.value_or(1.0)));
+  std::optional<Conclusion> conclusion =
+      unusable(levels, std::max(options.floor.value_or(0.0), round_off * options.scale.value_or(1.0)));
   const bool positive = std::all_of(levels.begin(), levels.end(), [](const Level& level) { return level.error > 0.0; });
   if (!conclusion || (conclusion->verdict == Verdict::floor && positive)) estimate(levels, result);
   if (!conclusion) conclusion = Evidence(levels, theory_order, result).conclude();

@@ -26,6 +26,7 @@ enum class Verdict {
   inconclusive,    ///< the levels do not settle the question; the reason says why
   holds,           ///< a bound or identity is met: not of an order
   violated,        ///< it is not
+  determined,       ///< the order is sharp and undisputed, and no theory was given to compare it with
   stable,          ///< never given, only expected where no order can be seen: met by all but `unstable`
 };
 

@@ -2,12 +2,10 @@
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
-#include <gsl/gsl_multifit.h>
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
-#include <memory>
 #include <vector>
 
 #include "mms/gsl_status.hpp"
@@ -68,9 +66,17 @@ Minimum minimize(Function function, double first, double last, int cells) {
 }
 
 // The corrected law is fitted over z = log(1 + D v_0^q), v_0 the coarsest level: every z keeps 1 + D v^q positive on
-// all levels. Beyond the bounds, D v_0^q = -0.95 and 3, the second term is no correction: as D grows the law turns into
-// a power law of order p + q, which fits as well as a small D does and means nothing.
-constexpr double lowest_z = -3.0, highest_z = 1.386;
+// all levels. Below the lower bound, D v_0^q = -0.95, the error would nearly vanish at the coarsest level. Above the
+// upper one the second term is the larger by far even at the finest level: as D grows the law turns into a power law of
+// order p + q, which fits as well as a small D does and means nothing.
+constexpr double lowest_z = -3.0;
+constexpr double largest_share_at_first = 3.0, largest_share_at_last = 1.0;
+/// An order that the finest levels miss by less than this is what they show.
+constexpr double order_shown = 0.1;
+
+double highest_z(const Logarithms& logs, double q, double at_last = largest_share_at_last) {
+  return std::log1p(std::max(largest_share_at_first, at_last * std::pow(logs.ratio.back(), -q)));
+}
 
 /// The corrected law at a given correction: what is left is a line.
 class Correction {
@@ -139,6 +145,82 @@ double boundary(Function function, double inside, double end, double bound) {
   return inside;
 }
 
+/// Cells of a scan over z, in which a sum of squares has one minimum at most.
+int cells(double highest) { return std::max(12, static_cast<int>(2.0 * (highest - lowest_z))); }
+
+struct BestLaw {
+  CorrectedLaw law;
+  double z;
+};
+
+BestLaw best_law(const Logarithms& logs, double q, double v_0) {
+  const Correction correction(logs, q);
+  const double highest = highest_z(logs, q);
+  const Minimum best =
+      minimize([&](double z) { return correction.line(z).residual; }, lowest_z, highest, cells(highest));
+  const Line line = correction.line(best.at);
+  CorrectedLaw fit;
+  fit.order = line.slope;
+  fit.C = std::exp(line.intercept);
+  fit.D = std::expm1(best.at) / std::pow(v_0, q);
+  fit.q = q;
+  fit.residual = line.residual;
+  return {fit, best.at};
+}
+
+/// All orders at which the sum of squares, minimized over C and D, does not exceed the bound.
+Estimate profile(const Logarithms& logs, const BestLaw& best, double bound) {
+  const Correction correction(logs, best.law.q);
+  const auto residual = [&](double trial) { return correction.line(trial).residual; };
+  // At each z the orders within the bound are an interval around the line's slope; the profile's is their union. The
+  // slope falls as z grows, so the lower end lies at larger z than the best fit and the upper end at smaller z.
+  const auto end = [&](double sign, double z_end) {
+    const auto reach = [&](double trial) {
+      const Line line = correction.line(trial);
+      return -sign * line.slope - std::sqrt(std::max(bound - line.residual, 0.0) * line.slope_variance);
+    };
+    return -sign * minimize(reach, std::min(best.z, z_end), std::max(best.z, z_end), 6).value;
+  };
+  return {best.law.order, end(-1.0, boundary(residual, best.z, highest_z(logs, best.law.q), bound)),
+          end(1.0, boundary(residual, best.z, lowest_z, bound))};
+}
+
+/// Noise that is known beforehand counts like so many levels in which it was seen.
+constexpr std::size_t known_freedom = 2;
+
+double known_squares(LevelView levels) {
+  double sum = 0.0;
+  for (const Level& level : levels) sum += level.weight * level.noise * level.noise;
+  return static_cast<double>(known_freedom) * sum / static_cast<double>(levels.size());
+}
+
+std::size_t freedom(LevelView levels, std::size_t parameters) {
+  return levels.size() - parameters + (known_squares(levels) > 0.0 ? known_freedom : 0);
+}
+
+/// Exponents q that are united to an interval.
+constexpr double united_exponents[] = {0.5, 1.0, 2.0, 3.0};
+/// Steps of q in a search for the best one, and its ends.
+constexpr double step_of_q = 0.5, largest_q = 6.0;
+
+/// The best of all exponents: of a few, then of the neighbors of the best.
+BestLaw best_of_all_exponents(const Logarithms& logs, double v_0) {
+  BestLaw best = best_law(logs, 1.0, v_0);
+  const auto improve = [&](double q) {
+    const BestLaw law = best_law(logs, q, v_0);
+    if (law.law.residual < best.law.residual) best = law;
+  };
+  for (const double q : {0.5, 2.0, 4.0, largest_q}) improve(q);
+  const double middle = best.law.q;
+  for (const double step : {-2.0, -1.0, 1.0, 2.0}) {
+    const double q = middle + step * step_of_q;
+    if (q >= step_of_q && q <= largest_q && q != 1.0 && q != 2.0 && q != 4.0) improve(q);
+  }
+  return best;
+}
+/// The orders drift if a correction explains so much that chance does so with this probability.
+constexpr double drift_level = 0.02;
+
 }  // namespace
 
 double student(double probability, std::size_t degrees_of_freedom) {
@@ -148,6 +230,11 @@ double student(double probability, std::size_t degrees_of_freedom) {
 bool significant(double before, double after, std::size_t degrees_of_freedom, double level) {
   const double t = student(1.0 - level, degrees_of_freedom);
   return (before - after) * static_cast<double>(degrees_of_freedom) > t * t * after;
+}
+
+bool explains_more(LevelView levels, double before, double after, std::size_t parameters, double level) {
+  const double known = known_squares(levels);
+  return significant(before + known, after + known, freedom(levels, parameters), level);
 }
 
 PowerLaw fit_power_law(LevelView levels) {
@@ -167,94 +254,51 @@ PowerLaw fit_power_law(LevelView levels) {
 }
 
 CorrectedLaw fit_corrected_law_only(LevelView levels, double q) {
-  CorrectedLaw fit;
-  if (levels.size() < 4) return fit;
+  if (levels.size() < 4) return {};
   const Logarithms logs(levels);
-  const Correction correction(logs, q);
-  const Minimum best = minimize([&](double z) { return correction.line(z).residual; }, lowest_z, highest_z, 24);
-  const Line line = correction.line(best.at);
-  fit.order = line.slope;
-  fit.C = std::exp(line.intercept);
-  fit.D = std::expm1(best.at) / std::pow(levels.front().variable, q);
-  fit.q = q;
-  fit.residual = line.residual;
-  return fit;
+  return best_law(logs, q, levels.front().variable).law;
 }
 
-CorrectedLaw fit_corrected_law(LevelView levels, double q) {
-  CorrectedLaw fit = fit_corrected_law_only(levels, q);
-  if (levels.size() < 4) return fit;
-  const Logarithms logs(levels);
-  const Correction correction(logs, q);
-  const std::size_t free = levels.size() - 3;
-  const double t = student(confidence, free);
-  const double bound = fit.residual * (1.0 + t * t / static_cast<double>(free));
-  const double z = std::log1p(fit.D * std::pow(levels.front().variable, q));
-  const auto residual = [&](double trial) { return correction.line(trial).residual; };
-  // At each z the orders within the bound are an interval around the line's slope; the profile's is their union. The
-  // slope falls as z grows, so the lower end lies at larger z than the best fit and the upper end at smaller z.
-  const auto end = [&](double sign, double z_end) {
-    const auto reach = [&](double trial) {
-      const Line line = correction.line(trial);
-      return -sign * line.slope - std::sqrt(std::max(bound - line.residual, 0.0) * line.slope_variance);
-    };
-    return -sign * minimize(reach, std::min(z, z_end), std::max(z, z_end), 6).value;
-  };
-  fit.low = end(-1.0, boundary(residual, z, highest_z, bound));
-  fit.high = end(1.0, boundary(residual, z, lowest_z, bound));
-  return fit;
+CorrectedLaw fit_corrected_law_only(LevelView levels) {
+  if (levels.size() < 4) return {};
+  return best_of_all_exponents(Logarithms(levels), levels.front().variable).law;
 }
 
-CorrectedLaw fit_corrected_law_and_q(LevelView levels) {
-  CorrectedLaw fit;
-  if (levels.size() < 5) return fit;
+CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
+  if (levels.size() < 4) return {};
   const Logarithms logs(levels);
-  const auto residual_at = [&](double log_q) {
-    const Correction correction(logs, std::exp(log_q));
-    return minimize([&](double z) { return correction.line(z).residual; }, lowest_z, highest_z, 12).value;
+  const double v_0 = levels.front().variable;
+  const BestLaw best = best_of_all_exponents(logs, v_0);
+  CorrectedLaw united = best.law;
+  united.low = united.high = united.order;
+  const bool drift = explains_more(levels, fit_power_law(levels).residual, best.law.residual, 3, drift_level);
+  const double t = student(1.0 - (drift ? 1.3 : 2.0) * miss, freedom(levels, 3)), free = freedom(levels, 3);
+  const auto unite = [&](const BestLaw& one) {
+    const double bound = one.law.residual + t * t * (one.law.residual + known_squares(levels)) / free;
+    const Estimate own = profile(logs, one, bound);
+    united.low = std::min(united.low, own.low);
+    united.high = std::max(united.high, own.high);
   };
-  const double q = std::exp(minimize(residual_at, std::log(0.25), std::log(3.0), 8).at);
-  fit = fit_corrected_law_only(levels, q);
-
-  const std::size_t n = levels.size(), parameters = 4;
-  using Matrix = std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)>;
-  using Vector = std::unique_ptr<gsl_vector, decltype(&gsl_vector_free)>;
-  const Matrix derivatives(gsl_matrix_alloc(n, parameters), gsl_matrix_free),
-      covariance(gsl_matrix_alloc(parameters, parameters), gsl_matrix_free);
-  const Vector weights(gsl_vector_alloc(n), gsl_vector_free), misfit(gsl_vector_alloc(n), gsl_vector_free),
-      step(gsl_vector_alloc(parameters), gsl_vector_free);
-  const double D = fit.D * std::pow(levels.front().variable, q);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double power = std::pow(logs.ratio[i], q), share = power / (1.0 + D * power);
-    gsl_matrix_set(derivatives.get(), i, 0, 1.0);
-    gsl_matrix_set(derivatives.get(), i, 1, std::log(logs.ratio[i]));
-    gsl_matrix_set(derivatives.get(), i, 2, share);
-    gsl_matrix_set(derivatives.get(), i, 3, D * share * std::log(logs.ratio[i]));
-    gsl_vector_set(weights.get(), i, logs.weight[i]);
-    gsl_vector_set(misfit.get(), i, logs.e[i] - std::log(fit.at(levels[i].variable)));
+  unite(best);
+  for (const double q : united_exponents) {
+    if (q == best.law.q) continue;
+    const BestLaw one = best_law(logs, q, v_0);
+    if (!explains_more(levels, one.law.residual, best.law.residual, 3, 0.2 * miss)) unite(one);
   }
-  const std::unique_ptr<gsl_multifit_linear_workspace, decltype(&gsl_multifit_linear_free)> workspace(
-      gsl_multifit_linear_alloc(n, parameters), gsl_multifit_linear_free);
-  double residual;
-  gsl_multifit_wlinear(derivatives.get(), weights.get(), misfit.get(), step.get(), covariance.get(), &residual,
-                       workspace.get());
-  const std::size_t free = n - parameters;
-  const double half_width = student(confidence, free) * std::sqrt(gsl_matrix_get(covariance.get(), 1, 1) *
-                                                                  fit.residual / static_cast<double>(free));
-  fit.low = fit.order - half_width;
-  fit.high = fit.order + half_width;
-  return fit;
+  return united;
 }
 
-CorrectedLaw fit_correction_of(LevelView levels, double order) {
+CorrectedLaw fit_correction_of(LevelView levels, double order, double slowest) {
   CorrectedLaw fit;
   if (levels.size() < 4) return fit;
   const Logarithms logs(levels);
   const auto best_at = [&](double log_q) {
-    const Correction correction(logs, std::exp(log_q));
-    return minimize([&](double z) { return correction.residual(z, order); }, lowest_z, highest_z, 24);
+    const double q = std::exp(log_q), highest = highest_z(logs, q, q / order_shown - 1.0);
+    const Correction correction(logs, q);
+    return minimize([&](double z) { return correction.residual(z, order); }, lowest_z, highest, cells(highest));
   };
-  fit.q = std::exp(minimize([&](double log_q) { return best_at(log_q).value; }, std::log(0.05), std::log(4.0), 16).at);
+  fit.q =
+      std::exp(minimize([&](double log_q) { return best_at(log_q).value; }, std::log(slowest), std::log(6.0), 16).at);
   const Minimum best = best_at(std::log(fit.q));
   fit.order = order;
   fit.D = std::expm1(best.at) / std::pow(levels.front().variable, fit.q);
@@ -267,13 +311,6 @@ CorrectedLaw fit_correction_of(LevelView levels, double order) {
   }
   fit.C = std::exp(mean);
   return fit;
-}
-
-double residual_of_order(LevelView levels, double order) {
-  if (levels.size() < 3) return not_estimated;
-  const Logarithms logs(levels);
-  const Correction correction(logs, 1.0);
-  return minimize([&](double z) { return correction.residual(z, order); }, lowest_z, highest_z, 24).value;
 }
 
 FlooredLaw fit_floored_law(LevelView levels) {

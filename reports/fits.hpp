@@ -38,6 +38,8 @@ struct Estimate {
 /// error = C v^p, from three levels on. `residual`: weighted sum of squares, here and below.
 struct PowerLaw : Estimate {
   double C = not_estimated, residual = not_estimated;
+
+  double at(double v) const { return C * std::pow(v, order); }
 };
 
 /// error = C v^p (1 + D v^q), from four levels on, or five where q is fitted too.
@@ -45,6 +47,9 @@ struct CorrectedLaw : Estimate {
   double C = not_estimated, D = not_estimated, q = not_estimated, residual = not_estimated;
 
   double at(double v) const { return C * std::pow(v, order) * (1.0 + D * std::pow(v, q)); }
+  double order_between(double coarse, double fine) const {
+    return std::log(at(coarse) / at(fine)) / std::log(coarse / fine);
+  }
 };
 
 /// error = C v^p + F, from four levels on. F <= 0: the levels show no floor.
@@ -54,22 +59,22 @@ struct FlooredLaw : Estimate {
 
 PowerLaw fit_power_law(LevelView levels);
 
-/// The interval is that of the profile: all orders at which the sum of squares, minimized over C and D, stays below
-/// (1 + t^2/(levels - 3)) times its minimum. It is not symmetric; the linearized one is too narrow unless D v is small.
-CorrectedLaw fit_corrected_law(LevelView levels, double q = 1.0);
+/// The exponent q is the best of 1/2, 1, 2, 3, 4 and 6.
+///
+/// The interval unites those of the exponents up to 3 that fit about as well, each that of its profile: all orders at
+/// which the sum of squares, minimized over C and D, stays below (1 + t^2/(levels - 3)) times its minimum. It is not
+/// symmetric. The parts are narrower than the whole is to be, the more so where the orders do not drift, since then all
+/// exponents say the same; that the whole then has its probability is measured (coverage.hpp).
+/// @param miss  the probability that the interval misses the order
+CorrectedLaw fit_corrected_law(LevelView levels, double miss = 0.05);
 
-/// The same without the interval, which takes most of the time.
-CorrectedLaw fit_corrected_law_only(LevelView levels, double q = 1.0);
+/// The same without the interval, which takes most of the time; the latter with q given.
+CorrectedLaw fit_corrected_law_only(LevelView levels);
+CorrectedLaw fit_corrected_law_only(LevelView levels, double q);
 
-/// q is fitted too, between 1/4 and 3, for what decays faster is no correction but an outlier; the interval is that of
-/// the linearized fit with levels - 4 degrees of freedom.
-CorrectedLaw fit_corrected_law_and_q(LevelView levels);
-
-/// The order is given and C, D, q are fitted: the correction that this order would need. No interval.
-CorrectedLaw fit_correction_of(LevelView levels, double order);
-
-/// The sum of squares of error = C v^order (1 + D v), with as many parameters as a power law.
-double residual_of_order(LevelView levels, double order);
+/// The order is given and C, D and q, from `slowest` to 6, are fitted: the correction that this order would need. No
+/// interval. At the finest level the second term may be up to 19 times the first.
+CorrectedLaw fit_correction_of(LevelView levels, double order, double slowest = 0.05);
 
 /// The interval is that of the profile over C and F.
 FlooredLaw fit_floored_law(LevelView levels);
@@ -80,5 +85,8 @@ double student(double probability, std::size_t degrees_of_freedom);
 /// F test: true if one parameter more, or one level less, lowers the sum of squares from `before` to `after` by more
 /// than chance does with probability `level`. The degrees of freedom are those of `after`.
 bool significant(double before, double after, std::size_t degrees_of_freedom, double level);
+
+/// The same for laws fitted to these levels, the better one with so many parameters; noise that is known counts.
+bool explains_more(LevelView levels, double before, double after, std::size_t parameters, double level);
 
 }  // namespace acstudy

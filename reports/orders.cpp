@@ -36,6 +36,16 @@ constexpr double explosion_factor = 10.0, explosion_power = 4.0;
 /// Corrections v^q with a smaller q cannot be told from logarithms.
 constexpr double slowest_correction = 0.4;
 
+/// An error that falls with a higher order than this has not stopped falling.
+constexpr double slowest_fall = 0.45;
+/// What condemns must not be wrong more often than this.
+constexpr double firm_miss = 0.01, firm_level = 0.02;
+/// An order without a drift that is farther than this from theory's is no accident.
+constexpr double clear_distance = 0.4;
+/// A single coarse level that is off by a larger factor is not asymptotic, which nobody takes for scatter; one that is
+/// off by a smaller one does not matter. In between it may be either.
+constexpr double coarse_factor = 1.8, harmless_factor = 1.25;
+
 /// A last pairwise order farther off than this is no scatter that could be averaged away.
 constexpr double widest_scatter = 0.25;
 
@@ -55,7 +65,8 @@ std::string with_interval(const Estimate& estimate) {
 }
 
 /// A verdict that needs no fit: levels that are no refinement, errors that are no errors, too few of them.
-std::optional<Conclusion> unusable(LevelView levels, double floor) {
+std::optional<Conclusion> unusable(LevelView levels, const JudgeOptions& options) {
+  const double floor = std::max(options.floor.value_or(0.0), round_off * options.scale.value_or(0.0));
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (!std::isfinite(levels[i].error)) {
       return Conclusion{Verdict::unstable,
@@ -95,11 +106,10 @@ std::optional<Conclusion> unusable(LevelView levels, double floor) {
 }
 
 void estimate(LevelView levels, Judgement& result) {
-  const Asymptotics asymptotics = asymptotic_window(levels);
-  result.window = asymptotics.window;
+  result.window = asymptotic_window(levels);
   const LevelView inside = levels.subspan(result.window.first);
   result.fitted = fit_power_law(inside);
-  result.corrected = asymptotics.law.q == 1.0 ? fit_corrected_law(inside) : fit_corrected_law_and_q(inside);
+  result.corrected = fit_corrected_law(inside);
   result.floored = fit_floored_law(inside);
   result.extrapolated = result.corrected.order;
   result.leave_one_out = leave_one_out(inside);
@@ -110,11 +120,12 @@ void estimate(LevelView levels, Judgement& result) {
 /// What finite, positive errors show whatever order theory gives, and what it needs to know of theory.
 class Evidence {
  public:
-  Evidence(LevelView levels, double theory, const Judgement& result)
+  Evidence(LevelView levels, double theory, const Judgement& result, const JudgeOptions& options)
       : all_(levels),
         inside_(levels.subspan(result.window.first)),
         theory_(theory),
         result_(result),
+        options_(options),
         pairwise_(std::span(result.pairwise).subspan(result.window.first)),
         last_(pairwise_.back()) {}
 
@@ -123,11 +134,7 @@ class Evidence {
                                 &Evidence::has_outlier, &Evidence::dwindles, &Evidence::wavers}) {
       if (auto answer = (this->*question)()) return *answer;
     }
-    if (std::isnan(theory_)) {
-      return inconclusive(
-          fmt::format("no theory's order was given to judge by; {}, pairwise {}", estimates(), pairs()));
-    }
-    if (theory_ == 0.0) return inconclusive(fmt::format("the error has not settled: pairwise orders {}", pairs()));
+    if (std::isnan(theory_)) return without_theory();
     for (const auto question : {&Evidence::agrees_with_theory, &Evidence::moves_toward_theory}) {
       if (auto answer = (this->*question)()) return *answer;
     }
@@ -167,13 +174,23 @@ class Evidence {
 
   bool falling() const { return std::is_sorted(pairwise_.rbegin(), pairwise_.rend()); }
 
-  /// Most of the finest error is a floor: the law with a floor fits better than a correction and, by an F test, a
-  /// power.
+  /// Most of the finest error is a floor: the errors hardly fall any more, and the law with a floor, which lies below
+  /// the finest error, explains them better than a correction and a power do.
   bool has_floor() const {
+    if (!(last_ < slowest_fall)) return false;
     const double share = result_.floored.F / all_.back().error;
-    return share > 0.5 && share < 2.0 && result_.floored.residual < result_.corrected.residual &&
-           significant(result_.fitted.residual, result_.floored.residual, inside_.size() - 3, 0.05);
+    return share > 0.5 && share <= 1.0 &&
+           explains_more(inside_, result_.corrected.residual, result_.floored.residual, 3, 0.05) &&
+           explains_more(inside_, result_.fitted.residual, result_.floored.residual, 3, 0.05);
   }
+
+  /// The orders of the levels drift by more than chance explains.
+  bool drifts() const {
+    return inside_.size() >= 4 && explains_more(inside_, result_.fitted.residual, result_.corrected.residual, 3, 0.05);
+  }
+
+  /// The finest errors still fall, and faster than one that settles.
+  bool still_falls() const { return last_ >= slowest_fall; }
 
   Answer explodes() const {
     const auto smallest =
@@ -187,7 +204,7 @@ class Evidence {
   }
 
   Answer settles() const {
-    if (theory_ != 0.0) return std::nullopt;
+    if (theory_ != 0.0 || still_falls()) return std::nullopt;
     const bool flat = std::abs(last_) <= order_tolerance || (std::abs(result_.fitted.order) <= order_tolerance &&
                                                              result_.fitted.half_width() <= widest_half_width);
     if (!flat && !has_floor()) return std::nullopt;
@@ -214,38 +231,54 @@ class Evidence {
     const bool flat = std::abs(last_) <= order_tolerance && (falling() || result_.fitted.half_width() <= 1.0);
     const bool level =
         std::abs(result_.fitted.order) <= order_tolerance && result_.fitted.half_width() <= widest_half_width;
-    if (theory_ == 0.0 || (!flat && !level)) return std::nullopt;
+    if (theory_ == 0.0 || still_falls() || (!flat && !level)) return std::nullopt;
     return Conclusion{Verdict::stagnates,
                       fmt::format("the error stops falling at {:.3g}: pairwise orders {}", all_.back().error, pairs())};
   }
 
+  Conclusion outlier(std::size_t level, double deviation) const {
+    return inconclusive(
+        fmt::format("level {} lies off the law of the others by a factor of {:.3g}; run it again, or leave "
+                    "it out if it is too coarse; pairwise orders {}",
+                    level + 1, std::exp(deviation), listed(result_.pairwise)));
+  }
+
   Answer has_outlier() const {
     const std::size_t first = result_.window.first;
-    const auto named = [&](std::size_t level, double deviation) {
-      return inconclusive(
-          fmt::format("level {} lies off the law of the others by a factor of {:.3g}; run it again, or leave "
-                      "it out if it is too coarse; pairwise orders {}",
-                      level + 1, std::exp(deviation), listed(result_.pairwise)));
-    };
     const auto off = [&](std::size_t i) {
       return std::log(all_[i].error / std::abs(result_.corrected.at(all_[i].variable)));
     };
-    // A pre-asymptotic range is a range: two levels or more, the coarsest of them off the most. One alone is an
-    // outlier.
-    if (first == 1 || (first > 1 && std::abs(off(0)) < std::abs(off(first - 1))))
-      return named(first - 1, off(first - 1));
-    if (const auto outlier = find_outlier(inside_)) return named(first + outlier->level, outlier->deviation);
+    // A pre-asymptotic range is a range: two levels or more, the coarsest of them off the most, or one that is far off
+    // or where the finer ones were heading. Any other is an outlier.
+    const bool goes_on = first == 1 && drifts() && off(0) * (pairwise_.front() - last_) > 0.0;
+    const bool alone = first == 1 && std::abs(off(0)) < std::log(coarse_factor) && !goes_on;
+    if (alone || (first > 1 && std::abs(off(0)) < std::abs(off(first - 1)))) return outlier(first - 1, off(first - 1));
+    if (auto answer = coarsest_is_off()) return answer;
+    if (const auto found = find_outlier(inside_)) return outlier(first + found->level, found->deviation);
     return std::nullopt;
   }
 
+  /// The coarsest level alone does not follow the straight line of the finer ones: a correction that decays as fast as
+  /// that explains anything, and may be an outlier.
+  Answer coarsest_is_off() const {
+    const LevelView rest = inside_.subspan(1);
+    if (rest.size() < 4) return std::nullopt;
+    const PowerLaw line = fit_power_law(rest);
+    if (explains_more(rest, line.residual, fit_corrected_law_only(rest).residual, 3, 0.05)) return std::nullopt;
+    const auto off = [&](std::size_t i) { return std::log(all_[i].error / line.at(all_[i].variable)); };
+    const std::size_t first = result_.window.first;
+    const double size = std::abs(off(first)), scatter = std::sqrt(line.residual / static_cast<double>(rest.size() - 2));
+    if (size < std::log(harmless_factor) || size > std::log(coarse_factor) || size < 4.0 * scatter) return std::nullopt;
+    const bool range = first > 0 && off(first - 1) * off(first) > 0.0 && std::abs(off(first - 1)) > size;
+    if (range) return std::nullopt;
+    return outlier(first, off(first));
+  }
+
   Answer dwindles() const {
-    if (theory_ == 0.0 || !falling() || approaching()) return std::nullopt;
-    if (!(last_ < 0.25 * pairwise_.front()) && !has_floor()) return std::nullopt;
-    return Conclusion{
-        Verdict::stagnates,
-        has_floor() ? fmt::format("the error stops falling: pairwise orders {}, and error = C v^{:.2f} + {:.3g} fits",
-                                  pairs(), result_.floored.order, result_.floored.F)
-                    : fmt::format("the error stops falling at {:.3g}: pairwise orders {}", all_.back().error, pairs())};
+    if (theory_ == 0.0 || !has_floor()) return std::nullopt;
+    return Conclusion{Verdict::stagnates,
+                      fmt::format("the error stops falling: pairwise orders {}, and error = C v^{:.2f} + {:.3g} fits",
+                                  pairs(), result_.floored.order, result_.floored.F)};
   }
 
   Answer wavers() const {
@@ -258,6 +291,7 @@ class Evidence {
 
   Answer agrees_with_theory() const {
     if (!near(result_.fitted.order)) return std::nullopt;
+    if (drifts() && !(result_.fitted.half_width() <= widest_half_width)) return std::nullopt;
     if (!(result_.fitted.half_width() <= widest_half_width)) {
       return inconclusive(fmt::format("the interval of {} is too wide to judge; pairwise {}", estimates(), pairs()));
     }
@@ -266,40 +300,56 @@ class Evidence {
                                       estimates(), result_.leave_one_out.level + 1, result_.leave_one_out.change,
                                       pairs()));
     }
-    const std::size_t n = inside_.size();
-    const double scatter = std::sqrt(2.0 * result_.fitted.residual / static_cast<double>(n - 2)) /
-                           std::log(inside_[n - 2].variable / inside_[n - 1].variable);
-    const bool by_chance = std::abs(last_ - theory_) <= std::min(2.0 * scatter, widest_scatter) && !leaving();
+    // Where the orders drift, the last one is known better from the law than from two levels.
+    const double finest = inside_.size() < 4 ? theory_
+                                             : result_.corrected.order_between(inside_[inside_.size() - 2].variable,
+                                                                               inside_.back().variable);
+    const bool by_chance = std::abs(last_ - theory_) <= std::min(2.0 * scatter_of_last(), widest_scatter);
+    const bool leaves = std::abs(finest - theory_) > (drifts() ? order_tolerance : extrapolation_tolerance);
     const bool extrapolates_elsewhere = result_.corrected.low > theory_ + extrapolation_tolerance ||
                                         result_.corrected.high < theory_ - extrapolation_tolerance;
-    if (extrapolates_elsewhere || (!near(last_) && !by_chance)) return std::nullopt;
+    if (extrapolates_elsewhere || leaves || (!near(last_) && !by_chance)) return std::nullopt;
     return Conclusion{Verdict::confirmed,
                       fmt::format("{} agrees with theory's {:g}; pairwise {}", estimates(), theory_, pairs())};
   }
 
-  /// The pairwise orders pass theory's and go on: a drift that looks like scatter about a straight line.
-  bool leaving() const {
-    return pairwise_.size() > 2 && !near(last_) && (falling() || std::is_sorted(pairwise_.begin(), pairwise_.end()));
+  /// Standard deviation of the last pairwise order, from what the levels scatter about a power law or are known to.
+  double scatter_of_last() const {
+    const std::size_t n = inside_.size();
+    const Level &coarse = inside_[n - 2], &fine = inside_[n - 1];
+    const double seen = std::sqrt(2.0 * (drifts() ? result_.corrected.residual / static_cast<double>(n - 3)
+                                                  : result_.fitted.residual / static_cast<double>(n - 2)));
+    return std::max(seen, std::hypot(coarse.noise, fine.noise)) / std::log(coarse.variable / fine.variable);
+  }
+
+  /// The levels fit theory's order with some correction as well as they fit any order.
+  bool fits_theory(const CorrectedLaw& correction, double level = 0.05) const {
+    return !explains_more(inside_, correction.residual, result_.corrected.residual, 3, level);
   }
 
   Answer moves_toward_theory() const {
-    const bool sharp = result_.corrected.contains(theory_) &&
-                       result_.corrected.half_width() <= extrapolation_tolerance &&
-                       std::abs(last_ - theory_) < std::abs(pairwise_.front() - theory_);
+    if (theory_ == 0.0 || std::abs(last_ - theory_) > widest_scatter) return std::nullopt;
+    const bool nearer = std::abs(last_ - theory_) < std::abs(pairwise_.front() - theory_);
+    const bool agrees = result_.corrected.contains(theory_) || near(result_.extrapolated);
+    const bool sharp = agrees && result_.corrected.half_width() <= extrapolation_tolerance && nearer;
     if (!approaching() && !sharp) return std::nullopt;
     if (inside_.size() < 4) {
       return inconclusive(fmt::format("pairwise orders {} move toward {:g}; to extrapolate them takes a fourth level",
                                       pairs(), theory_));
     }
     const CorrectedLaw correction = fit_correction_of(inside_, theory_);
-    const bool fits_as_well = correction.residual <= result_.corrected.residual;
+    if (!fits_theory(correction) && !sharp) return std::nullopt;
     if (correction.q < slowest_correction) {
-      if (!fits_as_well) return std::nullopt;
-      return inconclusive(
-          fmt::format("pairwise orders {} drift toward {:g} more slowly than by any correction v^q with q >= {:g}; {}",
-                      pairs(), theory_, slowest_correction, estimates()));
+      return inconclusive(fmt::format(
+          "pairwise orders {} drift toward {:g} as slowly as v^{:.2g}, which a logarithm cannot be told from; {}",
+          pairs(), theory_, correction.q, estimates()));
     }
-    if (std::abs(result_.extrapolated - theory_) > extrapolation_tolerance && !fits_as_well) return std::nullopt;
+    if (!agrees || std::abs(result_.extrapolated - theory_) > extrapolation_tolerance) return std::nullopt;
+    if (!(result_.corrected.half_width() <= widest_half_width)) {
+      return inconclusive(
+          fmt::format("pairwise orders {} move toward {:g}, but the interval of {} is too wide to judge", pairs(),
+                      theory_, estimates()));
+    }
     return Conclusion{
         Verdict::pre_asymptotic,
         fmt::format("pairwise orders {} move toward {:g} like v^{:.2g} and extrapolate to {}{}; the power law's {} "
@@ -308,26 +358,54 @@ class Evidence {
                     with_interval(result_.fitted))};
   }
 
+  /// The order is sharp, and so is its agreement with the finest levels.
+  Conclusion without_theory() const {
+    const bool sharp = result_.half_width() <= widest_half_width;
+    const bool seen = std::abs(last_ - result_.order) <= widest_half_width;
+    if (sharp && seen) {
+      return {Verdict::determined,
+              fmt::format("{}; pairwise {}; no theory's order was given to compare it with", estimates(), pairs())};
+    }
+    return inconclusive(fmt::format("the order is not determined: {}, pairwise {}", estimates(), pairs()));
+  }
+
+  /// Errors that are to settle fall, and no floor explains them as well as an order does.
+  bool falls_without_floor() const {
+    if (last_ < 0.5 * slowest_fall || 0.5 * (last_ + pairwise_[pairwise_.size() - 2]) < 0.8 * slowest_fall)
+      return false;
+    return !(result_.floored.F > 0.0) || result_.floored.F < 0.5 * all_.back().error ||
+           explains_more(inside_, result_.floored.residual, result_.corrected.residual, 3, 0.05);
+  }
+
   Conclusion departs() const {
-    const bool one_side = std::all_of(pairwise_.begin(), pairwise_.end(), [&](double order) {
-      return !near(order) && (order > theory_) == (last_ > theory_);
-    });
-    const bool extrapolated = result_.corrected.low > theory_ || result_.corrected.high < theory_;
-    // Where scatter hides an approach, a correction of theory's order fits better than another order.
-    const bool fitted = !result_.fitted.contains(theory_) && one_side && !approaching() &&
-                        result_.fitted.residual < residual_of_order(inside_, theory_);
-    if (!extrapolated && !fitted) {
+    const double side = last_ - theory_;
+    const auto beyond = [&](double order) { return (order - theory_) * side > 0.0; };
+    const bool one_side = !near(last_) && beyond(drifts() ? result_.corrected.order : result_.fitted.order);
+    const auto excludes = [&](const Estimate& e) {
+      return std::isfinite(e.low) && !e.contains(theory_) && beyond(e.order);
+    };
+    const CorrectedLaw given = fit_correction_of(inside_, theory_, 0.5);
+    const bool possible = inside_.size() >= 4 && fits_theory(given, firm_level);
+    const bool straight =
+        !drifts() && excludes(result_.fitted) && std::all_of(pairwise_.begin(), pairwise_.end(), beyond) &&
+        std::abs(result_.fitted.order - theory_) > clear_distance && !(given.residual < 1.1 * result_.fitted.residual);
+    const double margin = std::abs(result_.corrected.order - theory_),
+                 reach = std::abs(last_ - result_.corrected.order);
+    const bool bent = margin > std::max(order_tolerance, 0.2 * reach) && excludes(result_.corrected) &&
+                      excludes(fit_corrected_law(inside_, firm_miss)) && !possible;
+    const bool firm = theory_ == 0.0 ? falls_without_floor() : one_side && (straight || bent);
+    if (!firm) {
       return inconclusive(fmt::format("{} neither agrees with theory's {:g} nor excludes it; pairwise {}", estimates(),
                                       theory_, pairs()));
     }
-    const double distance = (extrapolated ? result_.corrected.order : result_.fitted.order) - theory_;
-    return {distance < 0.0 ? Verdict::below : Verdict::above,
+    return {side < 0.0 ? Verdict::below : Verdict::above,
             fmt::format("{}, theory says {:g}; pairwise {}", estimates(), theory_, pairs())};
   }
 
   LevelView all_, inside_;
   double theory_;
   const Judgement& result_;
+  const JudgeOptions& options_;
   std::span<const double> pairwise_;
   double last_;
 };
@@ -349,21 +427,29 @@ bool meets(Verdict verdict, Verdict expected) {
          (expected == Verdict::stable && verdict != Verdict::unstable);
 }
 
-Judgement judge(std::span<const Level> levels, double theory_order, const JudgeOptions& options) {
-  Judgement result;
+std::vector<Judgement> judge(std::span<const Level> levels, std::span<const double> theory_orders,
+                             const JudgeOptions& options) {
+  Judgement common;
   for (std::size_t i = 1; i < levels.size(); ++i) {
-    result.pairwise.push_back(std::log(levels[i - 1].error / levels[i].error) /
+    common.pairwise.push_back(std::log(levels[i - 1].error / levels[i].error) /
                               std::log(levels[i - 1].variable / levels[i].variable));
   }
-  result.window = {0, levels.empty() ? 0 : levels.size() - 1};
-  std::optional<Conclusion> conclusion =
-      unusable(levels, std::max(options.floor.value_or(0.0), round_off * options.scale.value_or(1.0)));
+  common.window = {0, levels.empty() ? 0 : levels.size() - 1};
+  const std::optional<Conclusion> conclusion = unusable(levels, options);
   const bool positive = std::all_of(levels.begin(), levels.end(), [](const Level& level) { return level.error > 0.0; });
-  if (!conclusion || (conclusion->verdict == Verdict::floor && positive)) estimate(levels, result);
-  if (!conclusion) conclusion = Evidence(levels, theory_order, result).conclude();
-  result.verdict = conclusion->verdict;
-  result.reason = std::move(conclusion->reason);
-  return result;
+  if (!conclusion || (conclusion->verdict == Verdict::floor && positive)) estimate(levels, common);
+  std::vector<Judgement> judgements;
+  for (const double theory_order : theory_orders) {
+    const Conclusion one = conclusion ? *conclusion : Evidence(levels, theory_order, common, options).conclude();
+    judgements.push_back(common);
+    judgements.back().verdict = one.verdict;
+    judgements.back().reason = one.reason;
+  }
+  return judgements;
+}
+
+Judgement judge(std::span<const Level> levels, double theory_order, const JudgeOptions& options) {
+  return judge(levels, std::span(&theory_order, 1), options).front();
 }
 
 Judgement judge(std::span<const Level> levels, double theory_order) { return judge(levels, theory_order, {}); }

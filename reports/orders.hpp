@@ -26,7 +26,7 @@ enum class Verdict {
   inconclusive,    ///< the levels do not settle the question; the reason says why
   holds,           ///< a bound or identity is met: not of an order
   violated,        ///< it is not
-  determined,       ///< the order is sharp and undisputed, and no theory was given to compare it with
+  determined,      ///< the order is sharp and undisputed, and no theory was given to compare it with
   stable,          ///< never given, only expected where no order can be seen: met by all but `unstable`
 };
 
@@ -80,6 +80,10 @@ struct JudgeOptions {
 ///                      then the verdict is what the levels alone show
 Judgement judge(std::span<const Level> levels, double theory_order, const JudgeOptions& options);
 Judgement judge(std::span<const Level> levels, double theory_order);
+
+/// The same against several orders at once, which costs little more than against one.
+std::vector<Judgement> judge(std::span<const Level> levels, std::span<const double> theory_orders,
+                             const JudgeOptions& options);
 
 /// True if the verdict is what a study expects; "confirmed" is met by `pre_asymptotic` too, since both say that
 /// theory's order holds, and "stable" by every verdict but `unstable`.

@@ -1,8 +1,8 @@
 #include "reports/window.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "reports/orders.hpp"
@@ -35,46 +35,43 @@ bool matters(LevelView levels, const CorrectedLaw& law) {
   return false;
 }
 
-CorrectedLaw fit_law(LevelView levels) {
-  const CorrectedLaw fixed = fit_corrected_law_only(levels);
-  if (levels.size() < 6) return fixed;
-  // No correction, no exponent of it; this also saves most of the time.
-  if (!significant(fit_power_law(levels).residual, fixed.residual, levels.size() - 3, 0.05)) return fixed;
-  const CorrectedLaw fitted = fit_corrected_law_and_q(levels);
-  return significant(fixed.residual, fitted.residual, levels.size() - 4, 0.01) ? fitted : fixed;
+/// Scatter that does not matter, however sharply exact errors show it, and how much is known of it.
+constexpr double harmless_scatter = 0.01, freedom = 1.0;
+/// Density of the logarithm of an error that no law predicts: anything within a factor of e^2 or so.
+constexpr double density_off_law = 0.25;
+
+/// Logarithm of the probability of the errors of a window given that a corrected law holds there, up to what windows of
+/// all sizes share: scatter is integrated out, with an inverse gamma density about what does not matter.
+double evidence(double residual, std::size_t levels) {
+  const double free = static_cast<double>(levels - 3);
+  const double before = freedom * harmless_scatter * harmless_scatter;
+  return std::lgamma(0.5 * (freedom + free)) - std::lgamma(0.5 * freedom) - 0.5 * free * std::log(M_PI) +
+         0.5 * freedom * std::log(before) - 0.5 * (freedom + free) * std::log(before + residual);
 }
 
 }  // namespace
 
-Asymptotics asymptotic_window(LevelView levels) {
+Window asymptotic_window(LevelView levels) {
   const std::size_t n = levels.size();
-  std::size_t first = n > 4 ? n - 4 : 0, parameters = 3;
-  CorrectedLaw law = fit_corrected_law_only(levels.subspan(first));
-  for (; first > 0; --first) {
-    const LevelView inside = levels.subspan(first), extended = levels.subspan(first - 1);
-    CorrectedLaw wider = parameters == 3 ? fit_corrected_law_only(extended) : fit_corrected_law_and_q(extended);
-    const Level& coarse = extended.front();
-    const double expected = law.at(coarse.variable);
-    const bool off =
-        !(expected > 0.0) || matters(std::log(coarse.error / expected), coarse.variable / inside.front().variable);
-    if (off && significant(wider.residual, law.residual, inside.size() - parameters, rejection)) {
-      if (parameters == 4 || extended.size() < 6) break;
-      // It may be the correction that has another exponent, if with it the wider window fits as well.
-      const double free = static_cast<double>(extended.size() - 4);
-      wider = fit_corrected_law_and_q(extended);
-      if (wider.residual > gsl_cdf_fdist_Pinv(0.95, free, free) * law.residual) break;
-      parameters = 4;
+  if (n <= 4) return {0, n - 1};
+  std::size_t best = 0;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (std::size_t first = 0; first + 4 <= n; ++first) {
+    const double residual = fit_corrected_law_only(levels.subspan(first)).residual;
+    const double value = evidence(residual, n - first) + static_cast<double>(first) * std::log(density_off_law);
+    if (value > highest) {
+      highest = value;
+      best = first;
     }
-    law = wider;
   }
-  return {{first, n - 1}, parameters == 4 ? law : fit_law(levels.subspan(first))};
+  return {best, n - 1};
 }
 
 std::optional<Outlier> find_outlier(LevelView levels) {
   const std::size_t n = levels.size();
   if (n < 4) return std::nullopt;
   // Where the law passes close to every level there is none; that law may have its exponent q fitted.
-  if (n > 4 && !matters(levels, fit_law(levels))) return std::nullopt;
+  if (n > 4 && !matters(levels, fit_corrected_law_only(levels))) return std::nullopt;
   const std::size_t parameters = n == 4 ? 2 : 3;
   const auto law_of = [&](LevelView some) {
     if (parameters == 3) return fit_corrected_law_only(some);

@@ -16,21 +16,13 @@ struct Window {
   std::size_t size() const { return last - first + 1; }
 };
 
-/// The law that the levels of a window are fitted by, and the window.
-struct Asymptotics {
-  Window window;
-  CorrectedLaw law;  ///< without its interval
-};
-
 /// Leaves out coarse levels that do not follow the law of the finer ones.
 ///
-/// A level is left out, with all coarser ones, if it lies off the corrected law of the finer levels by more than their
-/// scatter explains (F test at 0.2 %) and by enough to matter. The test is this strict because a window chosen to make
-/// the fit look good makes the interval too narrow. Fine levels are never left out: an error that stops falling is a
-/// result. Four levels stay, or all if there are fewer, since a law of three parameters fits any three.
-///
-/// From six levels on the exponent q of the correction is fitted too, if the levels determine it (F test at 1 %).
-Asymptotics asymptotic_window(LevelView levels);
+/// Of all windows that end at the finest level, the one under which the errors are the most probable: those inside
+/// follow a corrected law but for scatter, those outside follow none. Fine levels are never left out: an error that
+/// stops falling is a result. Four levels stay, or all if there are fewer, since a law of three parameters fits any
+/// three.
+Window asymptotic_window(LevelView levels);
 
 /// A level that lies off the law of all others, and how far: log(error/law).
 struct Outlier {

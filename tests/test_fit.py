@@ -104,7 +104,7 @@ class TableTest(FitTest):
         result = self.judged(text, "--variable", "spacing", "--error", "L2", "--weight", "n", "--order", "2", code=0)
         self.assertEqual([level["weight"] for level in result["levels"]], [1, 2, 3, 4, 5])
         self.assert_bad_input(self.fit(text), 'table.csv:1:1: no column "h"; the columns are N, L2, spacing, n; '
-                                              "choose with --variable, --error and --weight")
+                                              "name one with --variable")
 
     def test_what_cannot_be_read_is_named_by_line_and_column(self):
         not_a_number = "not a number that a double can hold; write one such as 1.5e-3, nan or inf"
@@ -112,14 +112,14 @@ class TableTest(FitTest):
         for text, message in (
                 ("h,error\n0.1,abc\n", f'2:5: error = "abc"; {not_a_number}'),
                 ("h,error\n0.1, 1e999\n", f'2:6: error = "1e999"; {not_a_number}'),
-                ("h,error\n0.1,\n", f'2:5: error = ""; {not_a_number}'),
+                ("h,error\n0.1,\n", '2:5: error = ""; the cell is empty; write a number there or leave the row out'),
                 ("h,error\n0.1,0.2x\n", f'2:5: error = "0.2x"; {not_a_number}'),
-                ("h;error\n0,1;0.2\n", f'2:1: h = "0,1"; {not_a_number}'),
+                ("h;error\n0,1;0.2\n", '2:1: h = "0,1"; a decimal comma; write a point'),
                 ("h,error\n-0.1,0.2\n", f"2:1: h = -0.1; {positive}"),
                 ("h,error\nnan,0.2\n", f"2:1: h = nan; {positive}"),
                 ("h,error\n# x\n0.1,0.2,3\n",
                  "3:1: 3 value(s), but the header names 2 column(s); write one value for each"),
-                ("h,error,h\n", '1:9: a second column "h"; name each once'),
+                ("h,error,h\n1,2,3\n", '1:9: a second column "h"; name each once'),
                 ("h,error\n", "1:1: the table has a header and no rows; write a row for each level"),
                 ("# nothing\n", "1:1: the table has no header; write the names of the columns in its first line")):
             self.assert_bad_input(self.fit(text), f"table.csv:{message}")

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
-#include <iterator>
+#include <sstream>
 
 #include "studies/input_error.hpp"
 #include "studies/printed_number.hpp"
@@ -25,7 +25,9 @@ std::string read_text(const std::string& file) {
   std::ifstream stored;
   if (file != "-") stored.open(file, std::ios::binary);
   std::istream& in = file == "-" ? std::cin : stored;
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::ostringstream text;
+  text << in.rdbuf();  // of a folder nothing, where an iterator would throw
+  return text.str();
 }
 
 /// The value that begins at `begin`, from quotes if it stands in some, and where it ends.

@@ -53,7 +53,7 @@ std::vector<std::size_t> error_columns(const NumberTable& table, Fits& fits) {
         if (const auto row = table.first_without_number(i)) {
           fits.left_out.push_back(table.place_of(*row, i));
         } else {
-          add(name);
+          columns.push_back(i);
         }
       }
     } else {
@@ -94,7 +94,8 @@ Growth growth(const Fit& fit) {
   const std::vector<double>& orders = fit.judgement.pairwise;
   constexpr double clearly = -0.2;  // a first order in three dimensions is -1/3 in the number of cells
   const auto negative = std::count_if(orders.begin(), orders.end(), [](double order) { return order < clearly; });
-  if (2 * negative <= static_cast<std::ptrdiff_t>(orders.size())) return Growth::none;
+  const bool finite = std::none_of(orders.begin(), orders.end(), [](double order) { return std::isnan(order); });
+  if (!finite || 2 * negative <= static_cast<std::ptrdiff_t>(orders.size())) return Growth::none;
   if (!(fit.levels.front().error < fit.levels.back().error) || fit.levels.back().variable < 2.0) return Growth::none;
   const bool whole = std::all_of(fit.levels.begin(), fit.levels.end(),
                                  [](const Level& level) { return level.variable == std::floor(level.variable); });

@@ -112,6 +112,12 @@ class RequestTest(FitTest):
         self.assert_bad_input(self.fit("h,error\n0.1,x\n", "--error", "all"),
                               "--error all; no column but those of variable, count and weight holds numbers")
 
+    def test_all_columns_may_have_columns_of_the_same_name(self):
+        text = "h,l2,order,linf,order\n" + "".join(f"{v!r},{v!r},2,{2 * v!r},2\n" for v in HALVED)
+        result = self.judged(text, "--error", "all", "--order", "1", code=1)
+        self.assertEqual([column["error"] for column in result["columns"]], ["l2", "order", "linf", "order"])
+        self.assert_bad_input(self.fit(text, "--error", "order"), 'table.csv:1:17: a second column "order"; name each once')
+
     def test_levels_are_chosen_coarse_to_fine(self):
         errors = [0.3 * v for v in HALVED]
         errors[0] = 7.0
@@ -141,6 +147,8 @@ class RequestTest(FitTest):
         for order in ((), ("--order", "2"), ("--order", "0")):
             result = self.judged(text, "--variable", "cells", *order, code=1)
             self.assertEqual((result["verdict"], result["reason"]), ("inconclusive", hint))
+        broken = table([3 / n for n in cells[:-2]] + [math.nan, 3], variables=cells)
+        self.assertEqual(self.judged(broken, "--variable", "h", code=1)["verdict"], "unstable")
         scaled = table([3 / n for n in cells], variables=[n / 3 for n in cells])
         self.assertIn("; the variable h grows as", self.judged(scaled, code=1)["reason"])
         self.assertEqual(self.judged(table([1, 2, 4, 8, 16]), code=1)["verdict"], "diverges")

@@ -89,6 +89,25 @@ class VerdictTest(FitTest):
             self.assertIn(words, done.stdout)
 
 
+class UnitsTest(FitTest):
+    def test_units_of_the_errors_decide_nothing(self):
+        finer = [2.0 ** -k for k in range(3, 11)]
+        for order, variables, errors in (
+                ("1", HALVED, power(1)), ("2", HALVED, power(1)), ("1", HALVED, power(1, -3.9)),
+                ("1", HALVED, [0.01 + 0.001 * v for v in HALVED]), ("0", HALVED, [0.01 + 0.001 * v for v in HALVED]),
+                ("3", finer, [float(f"{2e-4 * v ** 3 * (1 + 0.2 * v):.2e}") for v in finer]),
+                ("2", finer, [float(f"{0.05 * v ** 2 * (1 + 2 * v):.3e}") for v in finer]),
+                ("2", finer, [0.05 * v ** 2 * (1 + 0.02 * (-1) ** i) for i, v in enumerate(finer)])):
+            results = [self.fit(table([unit * e for e in errors], variables=variables), "--json", "--order", order)
+                       for unit in (1, 1e-9, 1e9)]
+            expected, *others = [(done.returncode, json.loads(done.stdout)) for done in results]
+            for code, result in others:
+                self.assertEqual((code, result["verdict"], result["window"]),
+                                 (expected[0], expected[1]["verdict"], expected[1]["window"]), errors)
+                for key in ("order", "low", "high"):
+                    self.assertAlmostEqual(result[key], expected[1][key], delta=1e-4)
+
+
 class RequestTest(FitTest):
     COLUMNS = "N;L2;max, scaled;rate;run\n" + "".join(
         f"{n};{0.1 / n ** 2!r};{0.3 / n!r};{'-' if n == 10 else 2};a\n" for n in (10, 20, 40, 80, 160))

@@ -224,7 +224,8 @@ void add_floors(Entries& all) {
                  levels(refined(0.1, 4.0, 6), plateau(4.0, 3e-14)),
                  4.0,
                  {floor},
-                 "the finest errors are round-off"});
+                 "the finest errors are round-off",
+                 {.scale = 1.0}});
   all.push_back({"zero at the finest level",
                  with_error(levels(refined(0.1, 2.0, 4), power(2.0)), 3, 0.0),
                  2.0,
@@ -235,13 +236,13 @@ void add_floors(Entries& all) {
                  4.0,
                  {floor},
                  "3e-8 is round-off where the solution is 1e6",
-                 1e6});
+                 {.scale = 1e6}});
   all.push_back({"small errors of a small solution",
                  levels(refined(0.1, 2.0, 5), [](double v) { return 1e-12 * v; }),
                  1.0,
                  {confirmed},
                  "1e-14 is no round-off where the solution is 1e-6",
-                 1e-6});
+                 {.scale = 1e-6}});
   for (const double height : {1e-9, 1e-3, 0.5}) {
     all.push_back({fmt::format("order 2 down to {}", height),
                    levels(refined(std::sqrt(height) * 8.0, 2.0, 8), plateau(2.0, height)),
@@ -365,7 +366,7 @@ std::vector<Misjudged> misjudged_by(const Judge& judge) {
 
 std::vector<Misjudged> misjudged() {
   return misjudged_by(
-      [](const CorpusEntry& entry) { return judge(entry.levels, entry.theory_order, {.scale = entry.scale}).verdict; });
+      [](const CorpusEntry& entry) { return judge(entry.levels, entry.theory_order, entry.options).verdict; });
 }
 
 }  // namespace acstudy

@@ -17,7 +17,7 @@ struct CorpusEntry {
   double theory_order;         ///< 0: the error must settle
   std::vector<Verdict> right;  ///< more than one only where each is right
   std::string why;             ///< why that is right, whatever a judge says
-  double scale = 1.0;          ///< size of the solution
+  JudgeOptions options = {};   ///< what is known besides
 };
 
 /// The corpus, the same in every call: random numbers come from fixed seeds.

@@ -29,8 +29,11 @@ constexpr NamedVerdict names[] = {
     {Verdict::stable, "stable"},
 };
 
-/// Errors of this size are round-off of a solution of order one, accumulated over a run.
+/// Errors of this size are round-off of a solution of size one, accumulated over a run.
 constexpr double round_off = 1e-12;
+/// What does not fall below this may be round-off of a solution of size one, and of an error of this size at the
+/// coarsest level.
+constexpr double possible_round_off = 1e-10;
 /// A growth of the error by this factor, faster than by this power of the variable, is an instability and no order.
 constexpr double explosion_factor = 10.0, explosion_power = 4.0;
 /// Corrections v^q with a smaller q cannot be told from logarithms.
@@ -94,7 +97,12 @@ std::optional<Conclusion> unusable(LevelView levels, const JudgeOptions& options
     return inconclusive(fmt::format("{} level(s); an order with an interval needs at least 3", levels.size()));
   }
   if (levels.back().error <= floor) {
-    return Conclusion{Verdict::floor, fmt::format("the finest error, {:.2g}, is round-off", levels.back().error)};
+    return Conclusion{Verdict::floor,
+                      fmt::format("the finest error, {:.2g}, is {}", levels.back().error,
+                                  levels.back().error <= options.floor.value_or(0.0)
+                                      ? fmt::format("at the known floor of {:.2g}", *options.floor)
+                                  : options.scale ? fmt::format("round-off of a solution of {:.2g}", *options.scale)
+                                                  : "exactly zero")};
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (levels[i].error == 0.0) {
@@ -144,14 +152,17 @@ class Evidence {
  private:
   using Answer = std::optional<Conclusion>;
 
+  static bool by_error(const Level& a, const Level& b) { return a.error < b.error; }
+
   static Conclusion inconclusive(std::string reason) { return {Verdict::inconclusive, std::move(reason)}; }
 
   std::string pairs() const { return listed(pairwise_); }
 
   std::string window() const {
     if (result_.window.first == 0) return "";
-    return fmt::format(", levels {} to {} (the {} coarser do not follow their law)", result_.window.first + 1,
-                       all_.size(), result_.window.first);
+    const std::size_t first = result_.window.first;
+    return fmt::format(", levels {} to {} ({} not follow their law)", first + 1, all_.size(),
+                       first == 1 ? "level 1 does" : fmt::format("levels 1 to {} do", first));
   }
 
   std::string estimates() const {
@@ -192,9 +203,24 @@ class Evidence {
   /// The finest errors still fall, and faster than one that settles.
   bool still_falls() const { return last_ >= slowest_fall; }
 
+  /// The finest errors, which do not fall, are so small against the solution or the coarsest error that round-off
+  /// explains it.
+  bool at_round_off() const {
+    const double largest = std::max_element(all_.begin(), all_.end(), by_error)->error;
+    const double bound = possible_round_off * options_.scale.value_or(largest);
+    return std::all_of(all_.end() - 2, all_.end(), [&](const Level& level) { return level.error <= bound; });
+  }
+
+  Conclusion floored() const {
+    return {Verdict::floor,
+            fmt::format("the error stops falling at {:.2g}, which is round-off of {} of {:.2g}; pairwise orders {}",
+                        all_.back().error, options_.scale ? "a solution" : "a coarsest error",
+                        options_.scale.value_or(std::max_element(all_.begin(), all_.end(), by_error)->error),
+                        listed(result_.pairwise))};
+  }
+
   Answer explodes() const {
-    const auto smallest =
-        std::min_element(all_.begin(), all_.end(), [](auto& a, auto& b) { return a.error < b.error; });
+    const auto smallest = std::min_element(all_.begin(), all_.end(), by_error);
     const double growth = all_.back().error / smallest->error;
     const double power = std::log(growth) / std::log(smallest->variable / all_.back().variable);
     if (!(growth > explosion_factor && power > explosion_power)) return std::nullopt;
@@ -222,6 +248,16 @@ class Evidence {
     const double overall = std::log(first / last) / std::log(all_.front().variable / all_.back().variable);
     const bool twice = last_ < -order_tolerance && pairwise_[pairwise_.size() - 2] < -order_tolerance;
     if (!(overall < -order_tolerance) && !twice) return std::nullopt;
+    if (at_round_off()) return floored();
+    // Growth from the first level on that follows no law is what round-off does too, and no scale tells them apart.
+    const bool ever_fell = std::any_of(result_.pairwise.begin(), result_.pairwise.end(),
+                                       [](double order) { return order > order_tolerance; });
+    if (!ever_fell && !options_.scale && result_.fitted.half_width() > widest_half_width) {
+      return inconclusive(fmt::format(
+          "the errors grow from {:.2g} to {:.2g} by no law, pairwise orders {}; the solution's size would tell "
+          "whether they are round-off or diverge",
+          first, last, listed(result_.pairwise)));
+    }
     return Conclusion{Verdict::diverges,
                       fmt::format("the error grows under refinement, from {:.2g} to {:.2g}: pairwise orders {}",
                                   twice ? all_[all_.size() - 3].error : first, last, pairs())};
@@ -232,6 +268,7 @@ class Evidence {
     const bool level =
         std::abs(result_.fitted.order) <= order_tolerance && result_.fitted.half_width() <= widest_half_width;
     if (theory_ == 0.0 || still_falls() || (!flat && !level)) return std::nullopt;
+    if (at_round_off()) return floored();
     return Conclusion{Verdict::stagnates,
                       fmt::format("the error stops falling at {:.3g}: pairwise orders {}", all_.back().error, pairs())};
   }
@@ -276,6 +313,7 @@ class Evidence {
 
   Answer dwindles() const {
     if (theory_ == 0.0 || !has_floor()) return std::nullopt;
+    if (at_round_off()) return floored();
     return Conclusion{Verdict::stagnates,
                       fmt::format("the error stops falling: pairwise orders {}, and error = C v^{:.2f} + {:.3g} fits",
                                   pairs(), result_.floored.order, result_.floored.F)};

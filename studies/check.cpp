@@ -27,7 +27,7 @@ Row row_of(const std::string& file, const std::string& study, const std::string&
 }
 
 Row check_series(const std::string& file, const SeriesRecord& record) {
-  Judgement judgement = judge(record.levels, record.theory_order);
+  Judgement judgement = judge(record.levels, record.theory_order, {.scale = solution_scale(record.solutions)});
   if (record.expected == Verdict::stable) {
     for (std::size_t i = 0; i < record.levels.size(); ++i) {
       require_bounded(judgement, record.levels[i].error, record.solutions[i]);

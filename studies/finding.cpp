@@ -132,7 +132,7 @@ void judge(Finding& finding) {
   }
   std::vector<Level> levels;
   for (const Point& point : finding.points) levels.push_back({point.variable, point.value});
-  finding.judgement = judge(levels, finding.theory_order);
+  finding.judgement = judge(levels, finding.theory_order, finding.known);
   if (finding.test == Test::rate) judge_rate(finding.judgement, finding.theory_order);
 }
 

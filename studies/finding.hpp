@@ -51,8 +51,9 @@ struct Finding {
   Verdict expected;                    ///< the verdict that the study demands: another one for a negative control
   std::vector<Verdict> also_expected;  ///< verdicts that are as right as the expected one
   std::vector<Point> points;
-  std::string remark;   ///< what a reader must know besides; may be empty
-  std::string failure;  ///< why it could not be measured, if so: the verdict is then `inconclusive`
+  JudgeOptions known = {.scale = 1.0};  ///< of the size of what the values are errors of; fields have size 1
+  std::string remark;                   ///< what a reader must know besides; may be empty
+  std::string failure;                  ///< why it could not be measured, if so: the verdict is then `inconclusive`
 
   Judgement judgement;                ///< set by judge()
   std::optional<SurfaceFit> surface;  ///< set by judge() for Test::surface, where the values allow it

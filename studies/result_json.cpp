@@ -137,6 +137,8 @@ json finding_json(const Finding& finding) {
   out["variable"] = finding.variable;
   if (finding.test != Test::bounds) {
     out["theory_order"] = finding.theory_order;
+    if (finding.known.scale) out["scale"] = *finding.known.scale;
+    if (finding.known.floor) out["floor"] = *finding.known.floor;
     out["observed"] = observed_json(judgement);
   }
   if (finding.surface) out["surface"] = surface_json(*finding.surface);
@@ -185,6 +187,10 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   if (!test) throw std::invalid_argument("unknown test " + one.at("test").dump());
   finding.test = *test;
   finding.theory_order = finding.test == Test::bounds ? 0.0 : real(one.at("theory_order"));
+  const auto known = [&](const char* name) {
+    return one.contains(name) ? std::optional(real(one.at(name))) : std::nullopt;
+  };
+  finding.known = {.scale = known("scale"), .floor = known("floor")};
   finding.promised = verdict(one.at("promised"));
   finding.expected = verdict(one.at("expected"));
   for (const json& also : one.value("also_expected", json::array())) finding.also_expected.push_back(verdict(also));

@@ -178,6 +178,8 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
   for_each_text(finding, [&](const char* name, const std::string& text) { h5::write_text(group, name, text); });
   h5::write_text(group, "test", std::string(name_of(finding.test)));
   h5::write_number(group, "theory_order", finding.theory_order);
+  h5::write_number(group, "scale", finding.known.scale.value_or(not_estimated));
+  h5::write_number(group, "floor", finding.known.floor.value_or(not_estimated));
   h5::write_text(group, "promised", std::string(name_of(finding.promised)));
   h5::write_text(group, "expected", std::string(name_of(finding.expected)));
   std::string also;
@@ -212,6 +214,11 @@ Finding read_finding(hid_t group) {
   for_each_text(finding, [&](const char* name, std::string& text) { text = h5::read_text(group, name); });
   finding.test = test_from(h5::read_text(group, "test")).value();
   finding.theory_order = h5::read_number(group, "theory_order");
+  const auto known = [&](const char* name) {
+    const double value = h5::read_number(group, name);
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+  };
+  finding.known = {.scale = known("scale"), .floor = known("floor")};
   finding.promised = verdict_from(h5::read_text(group, "promised")).value();
   finding.expected = verdict_from(h5::read_text(group, "expected")).value();
   std::istringstream also(h5::read_text(group, "also_expected"));
@@ -317,13 +324,24 @@ std::vector<std::pair<std::string, double>> named_estimates(const Judgement& j) 
           {"leave_one_out_level", std::isnan(j.leave_one_out.change) ? not_estimated : number(j.leave_one_out.level)}};
 }
 
+std::optional<double> solution_scale(std::span<const double> solutions) {
+  double scale = 0.0;
+  for (const double size : solutions) {
+    if (std::isfinite(size)) scale = std::max(scale, size);
+  }
+  return scale > 0.0 ? std::optional(scale) : std::nullopt;
+}
+
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results) {
   std::vector<Level> levels;
+  std::vector<double> solutions;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Case& c = series.cases[i];
-    if (results[i].completed) levels.push_back({series.variable(c.h, c.delta), results[i].error_linf});
+    if (!results[i].completed) continue;
+    levels.push_back({series.variable(c.h, c.delta), results[i].error_linf});
+    solutions.push_back(results[i].solution_linf);
   }
-  Judgement judgement = judge(levels, series.theory.order);
+  Judgement judgement = judge(levels, series.theory.order, {.scale = solution_scale(solutions)});
   const auto first_with = [&](std::string CaseResult::*text) {
     return std::find_if(results.begin(), results.end(), [&](const CaseResult& r) { return !(r.*text).empty(); });
   };

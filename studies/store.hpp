@@ -62,6 +62,10 @@ std::vector<std::pair<std::string, double>> named_estimates(const Judgement& jud
 inline constexpr double largest_stable_error = 100.0;
 void require_bounded(Judgement& judgement, double error, double solution);
 
+/// The largest max |u| of the cases of a series, by which round-off is known; nothing where none is positive and
+/// finite.
+std::optional<double> solution_scale(std::span<const double> solutions);
+
 /// Judges a series on its completed cases.
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results);
 

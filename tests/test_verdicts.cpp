@@ -41,7 +41,7 @@ std::size_t wrong(const Judge& judge) { return misjudged_by(judge).size(); }
 TEST_CASE("every series of known verdict is judged right") {
   CHECK(verdict_corpus().size() >= 100);
   for (const Misjudged& one : misjudged()) {
-    const Judgement j = judge(one.entry.levels, one.entry.theory_order, {.scale = one.entry.scale});
+    const Judgement j = judge(one.entry.levels, one.entry.theory_order, one.entry.options);
     FAIL_CHECK(one.entry.name << ": " << name_of(one.verdict) << ", though " << one.entry.why << "; " << j.reason);
   }
 }
@@ -90,7 +90,7 @@ TEST_CASE("judges that are known to be wrong fail on the corpus") {
   }
   SECTION("one that compares theory with the interval of a power law") {
     const std::size_t missed = wrong([](const CorpusEntry& entry) {
-      const Judgement j = judge(entry.levels, entry.theory_order, {.scale = entry.scale});
+      const Judgement j = judge(entry.levels, entry.theory_order, entry.options);
       if (!std::isfinite(j.fitted.order)) return j.verdict;
       const PowerLaw line = fit_power_law(entry.levels);
       return compared(line.order, line.low, line.high, entry.theory_order);
@@ -105,7 +105,7 @@ TEST_CASE("judges that are known to be wrong fail on the corpus") {
       for (const Level& level : entry.levels) {
         if (std::isfinite(level.error)) finite.push_back(level);
       }
-      return judge(finite, entry.theory_order, {.scale = entry.scale}).verdict;
+      return judge(finite, entry.theory_order, entry.options).verdict;
     });
     CHECK(missed.size() == 6);
     for (const Misjudged& one : missed) CHECK(meets(one.verdict, Verdict::confirmed));

@@ -22,10 +22,8 @@ Finding corpus_finding(const CorpusEntry& entry) {
                   .promised = entry.right.front(),
                   .expected = entry.right.front()};
   finding.also_expected.assign(entry.right.begin() + 1, entry.right.end());
-  // The verdict depends on errors and round-off in units of the solution.
-  for (const Level& level : entry.levels) {
-    finding.points.push_back({.variable = level.variable, .value = level.error / entry.scale});
-  }
+  finding.known = entry.options;
+  for (const Level& level : entry.levels) finding.points.push_back({.variable = level.variable, .value = level.error});
   return finding;
 }
 

@@ -1,9 +1,10 @@
 """Error tables that others have published, and a few of known laws: what the judge may say of each, in any units.
 
-`published/index.csv` has a row for every column of errors and order that is asked for, the first of a column in all
-units. `variable` is a column, or a column to a power where the source counts cells; `right` lists the verdicts that may
-be given, all others are wrong; `names`, if any, must stand in the reason. What is right was decided from the pairwise
-orders of the finest levels and theory, before any judge was asked, and `why` says how.
+`published/index.csv` has a row for every column of errors and order that is asked for. `variable` is a column, or a
+column to a power where the source counts cells; `right` lists the verdicts that may be given, all others are wrong;
+`names`, if any, must stand in the reason. What is right was decided from the pairwise orders of the finest levels and
+theory, before any judge was asked, and `why` says how. Each question takes a start of the program, so only the first
+row of a table is asked in all units.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -67,9 +68,8 @@ class PublishedTest(ProgramTest):
 
     def test_every_table_has_a_right_verdict_in_any_units(self):
         asked = []
-        for _, rows in groupby(index(), lambda row: (row["table"], row["error"])):
+        for _, rows in groupby(index(), lambda row: row["table"]):
             first, *others = rows
-            # Each takes a start of the program: the orders next to a column's own are asked for in its own units only.
             asked += [(first, unit) for unit in UNITS] + [(row, "") for row in others]
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             answers = list(pool.map(lambda case: self.wrong(*case), asked))

@@ -168,6 +168,27 @@ BestLaw best_law(const Logarithms& logs, double q, double v_0) {
   return {fit, best.at};
 }
 
+/// The law with the order and q given.
+CorrectedLaw law_of_order(const Logarithms& logs, double order, double q, double v_0) {
+  const Correction correction(logs, q);
+  const double highest = highest_z(logs, q, q / order_shown - 1.0);
+  const Minimum best =
+      minimize([&](double z) { return correction.residual(z, order); }, lowest_z, highest, cells(highest));
+  CorrectedLaw law;
+  law.order = order;
+  law.q = q;
+  law.D = std::expm1(best.at) / std::pow(v_0, q);
+  law.residual = best.value;
+  double sum = 0.0, mean = 0.0;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const double log_law = order * logs.v[i] + std::log1p(std::expm1(best.at) * std::pow(logs.ratio[i], q));
+    sum += logs.weight[i];
+    mean += (logs.e[i] - log_law - mean) * logs.weight[i] / sum;
+  }
+  law.C = std::exp(mean);
+  return law;
+}
+
 /// All orders at which the sum of squares, minimized over C and D, does not exceed the bound.
 Estimate profile(const Logarithms& logs, const BestLaw& best, double bound) {
   const Correction correction(logs, best.law.q);
@@ -288,29 +309,22 @@ CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
   return united;
 }
 
-CorrectedLaw fit_correction_of(LevelView levels, double order, double slowest) {
-  CorrectedLaw fit;
-  if (levels.size() < 4) return fit;
+CorrectedLaw fit_correction_of(LevelView levels, double order) {
+  if (levels.size() < 4) return {};
   const Logarithms logs(levels);
-  const auto best_at = [&](double log_q) {
-    const double q = std::exp(log_q), highest = highest_z(logs, q, q / order_shown - 1.0);
-    const Correction correction(logs, q);
-    return minimize([&](double z) { return correction.residual(z, order); }, lowest_z, highest, cells(highest));
-  };
-  fit.q =
-      std::exp(minimize([&](double log_q) { return best_at(log_q).value; }, std::log(slowest), std::log(6.0), 16).at);
-  const Minimum best = best_at(std::log(fit.q));
-  fit.order = order;
-  fit.D = std::expm1(best.at) / std::pow(levels.front().variable, fit.q);
-  fit.residual = best.value;
-  double sum = 0.0, mean = 0.0;
-  for (const Level& level : levels) {
-    const double law = std::pow(level.variable, order) * (1.0 + fit.D * std::pow(level.variable, fit.q));
-    sum += level.weight;
-    mean += (std::log(level.error / law) - mean) * level.weight / sum;
+  const auto at = [&](double log_q) { return law_of_order(logs, order, std::exp(log_q), levels.front().variable); };
+  return at(minimize([&](double log_q) { return at(log_q).residual; }, std::log(0.05), std::log(largest_q), 16).at);
+}
+
+CorrectedLaw fit_usual_correction_of(LevelView levels, double order) {
+  CorrectedLaw best;
+  if (levels.size() < 4) return best;
+  const Logarithms logs(levels);
+  for (double q = step_of_q; q <= largest_q; q += step_of_q) {
+    const CorrectedLaw law = law_of_order(logs, order, q, levels.front().variable);
+    if (!(best.residual <= law.residual)) best = law;
   }
-  fit.C = std::exp(mean);
-  return fit;
+  return best;
 }
 
 FlooredLaw fit_floored_law(LevelView levels) {

@@ -72,9 +72,12 @@ CorrectedLaw fit_corrected_law(LevelView levels, double miss = 0.05);
 CorrectedLaw fit_corrected_law_only(LevelView levels);
 CorrectedLaw fit_corrected_law_only(LevelView levels, double q);
 
-/// The order is given and C, D and q, from `slowest` to 6, are fitted: the correction that this order would need. No
-/// interval. At the finest level the second term may be up to 19 times the first.
-CorrectedLaw fit_correction_of(LevelView levels, double order, double slowest = 0.05);
+/// The order is given and C, D and q, from 0.05 to 6, are fitted: the correction that this order would need. No
+/// interval. At the finest level the order may still be hidden behind the second term, up to 0.1 short of p + q.
+CorrectedLaw fit_correction_of(LevelView levels, double order);
+
+/// The same where q is one of 1/2, 1, ..., 6, as expansions of errors have it.
+CorrectedLaw fit_usual_correction_of(LevelView levels, double order);
 
 /// The interval is that of the profile over C and F.
 FlooredLaw fit_floored_law(LevelView levels);

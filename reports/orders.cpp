@@ -45,9 +45,8 @@ constexpr double slowest_fall = 0.45;
 constexpr double firm_miss = 0.01, firm_level = 0.02;
 /// An order without a drift that is farther than this from theory's is no accident.
 constexpr double clear_distance = 0.4;
-/// A single coarse level that is off by a larger factor is not asymptotic, which nobody takes for scatter; one that is
-/// off by a smaller one does not matter. In between it may be either.
-constexpr double coarse_factor = 1.8, harmless_factor = 1.25;
+/// Orders that still fall by more than this from level to level have not settled on a lower one.
+constexpr double widest_fall = 1.0;
 
 /// A last pairwise order farther off than this is no scatter that could be averaged away.
 constexpr double widest_scatter = 0.25;
@@ -165,10 +164,18 @@ class Evidence {
                        first == 1 ? "level 1 does" : fmt::format("levels 1 to {} do", first));
   }
 
+  /// Names the coarsest level where its order to the next is of another kind than all others, which agree.
+  std::string coarsest_is_far() const {
+    if (pairwise_.size() < 3) return "";
+    const auto [least, most] = std::minmax_element(pairwise_.begin() + 1, pairwise_.end());
+    const bool far = *most - *least <= 0.5 && std::abs(pairwise_.front() - 0.5 * (*least + *most)) > 1.0;
+    return far ? fmt::format(" (level {} is far off the others)", result_.window.first + 1) : "";
+  }
+
   std::string estimates() const {
     if (inside_.size() < 4) return fmt::format("order {}", with_interval(result_.fitted));
-    return fmt::format("order {}, with a correction {}{}", with_interval(result_.fitted),
-                       with_interval(result_.corrected), window());
+    return fmt::format("order {}, with a correction {}{}{}", with_interval(result_.fitted),
+                       with_interval(result_.corrected), window(), coarsest_is_far());
   }
 
   bool near(double order) const { return std::abs(order - theory_) <= order_tolerance; }
@@ -191,7 +198,8 @@ class Evidence {
     if (!(last_ < slowest_fall)) return false;
     const double share = result_.floored.F / all_.back().error;
     return share > 0.5 && share <= 1.0 &&
-           explains_more(inside_, result_.corrected.residual, result_.floored.residual, 3, 0.05) &&
+           (result_.corrected.order < 0.0 ||
+            explains_more(inside_, result_.corrected.residual, result_.floored.residual, 3, 0.05)) &&
            explains_more(inside_, result_.fitted.residual, result_.floored.residual, 3, 0.05);
   }
 
@@ -287,12 +295,22 @@ class Evidence {
     };
     // A pre-asymptotic range is a range: two levels or more, the coarsest of them off the most, or one that is far off
     // or where the finer ones were heading. Any other is an outlier.
-    const bool goes_on = first == 1 && drifts() && off(0) * (pairwise_.front() - last_) > 0.0;
-    const bool alone = first == 1 && std::abs(off(0)) < std::log(coarse_factor) && !goes_on;
+    const bool alone = first == 1 && std::abs(off(0)) < std::log(coarse_factor) && !drifts();
     if (alone || (first > 1 && std::abs(off(0)) < std::abs(off(first - 1)))) return outlier(first - 1, off(first - 1));
     if (auto answer = coarsest_is_off()) return answer;
-    if (const auto found = find_outlier(inside_)) return outlier(first + found->level, found->deviation);
+    if (const auto found = find_outlier(inside_)) {
+      // Where every level departs no single one is to blame.
+      if (departs_everywhere()) return std::nullopt;
+      return outlier(first + found->level, found->deviation);
+    }
     return std::nullopt;
+  }
+
+  bool departs_everywhere() const {
+    const auto far = [&](double order, double side) { return (order - theory_) * side > clear_distance; };
+    return theory_ > 0.0 &&
+           (std::all_of(pairwise_.begin(), pairwise_.end(), [&](double order) { return far(order, 1.0); }) ||
+            std::all_of(pairwise_.begin(), pairwise_.end(), [&](double order) { return far(order, -1.0); }));
   }
 
   /// The coarsest level alone does not follow the straight line of the finer ones: a correction that decays as fast as
@@ -366,7 +384,7 @@ class Evidence {
   }
 
   Answer moves_toward_theory() const {
-    if (theory_ == 0.0 || std::abs(last_ - theory_) > widest_scatter) return std::nullopt;
+    if (theory_ == 0.0 || !(std::abs(last_ - theory_) <= widest_scatter)) return std::nullopt;
     const bool nearer = std::abs(last_ - theory_) < std::abs(pairwise_.front() - theory_);
     const bool agrees = result_.corrected.contains(theory_) || near(result_.extrapolated);
     const bool sharp = agrees && result_.corrected.half_width() <= extrapolation_tolerance && nearer;
@@ -377,12 +395,13 @@ class Evidence {
     }
     const CorrectedLaw correction = fit_correction_of(inside_, theory_);
     if (!fits_theory(correction) && !sharp) return std::nullopt;
-    if (correction.q < slowest_correction) {
+    if (correction.q < slowest_correction && !sharp) {
       return inconclusive(fmt::format(
           "pairwise orders {} drift toward {:g} as slowly as v^{:.2g}, which a logarithm cannot be told from; {}",
           pairs(), theory_, correction.q, estimates()));
     }
-    if (!agrees || std::abs(result_.extrapolated - theory_) > extrapolation_tolerance) return std::nullopt;
+    if (!agrees || (!near(last_) && std::abs(result_.extrapolated - theory_) > extrapolation_tolerance))
+      return std::nullopt;
     if (!(result_.corrected.half_width() <= widest_half_width)) {
       return inconclusive(
           fmt::format("pairwise orders {} move toward {:g}, but the interval of {} is too wide to judge", pairs(),
@@ -422,7 +441,7 @@ class Evidence {
     const auto excludes = [&](const Estimate& e) {
       return std::isfinite(e.low) && !e.contains(theory_) && beyond(e.order);
     };
-    const CorrectedLaw given = fit_correction_of(inside_, theory_, 0.5);
+    const CorrectedLaw given = fit_usual_correction_of(inside_, theory_);
     const bool possible = inside_.size() >= 4 && fits_theory(given, firm_level);
     const bool straight =
         !drifts() && excludes(result_.fitted) && std::all_of(pairwise_.begin(), pairwise_.end(), beyond) &&
@@ -431,7 +450,13 @@ class Evidence {
                  reach = std::abs(last_ - result_.corrected.order);
     const bool bent = margin > std::max(order_tolerance, 0.2 * reach) && excludes(result_.corrected) &&
                       excludes(fit_corrected_law(inside_, firm_miss)) && !possible;
-    const bool firm = theory_ == 0.0 ? falls_without_floor() : one_side && (straight || bent);
+    // The finest orders move toward theory's, beyond where the law says that they go: it does not describe the end.
+    const double beyond_law = side < 0.0 ? last_ - result_.corrected.high : result_.corrected.low - last_;
+    const double before = pairwise_[pairwise_.size() - 2];
+    const bool unsettled = (drifts() && beyond_law > scatter_of_last() && (last_ - before) * side < 0.0) ||
+                           (drifts() && scatter_of_last() > widest_scatter) ||
+                           (side < 0.0 && before - last_ > widest_fall);
+    const bool firm = theory_ == 0.0 ? falls_without_floor() : one_side && !unsettled && (straight || bent);
     if (!firm) {
       return inconclusive(fmt::format("{} neither agrees with theory's {:g} nor excludes it; pairwise {}", estimates(),
                                       theory_, pairs()));

@@ -36,9 +36,9 @@ bool matters(LevelView levels, const CorrectedLaw& law) {
 }
 
 /// Scatter that does not matter, however sharply exact errors show it, and how much is known of it.
-constexpr double harmless_scatter = 0.01, freedom = 1.0;
+constexpr double harmless_scatter = 0.003, freedom = 1.0;
 /// Density of the logarithm of an error that no law predicts: anything within a factor of e^2 or so.
-constexpr double density_off_law = 0.25;
+constexpr double density_off_law = 0.5;
 
 /// Logarithm of the probability of the errors of a window given that a corrected law holds there, up to what windows of
 /// all sizes share: scatter is integrated out, with an inverse gamma density about what does not matter.
@@ -90,7 +90,9 @@ std::optional<Outlier> find_outlier(LevelView levels) {
     const double deviation = std::log(levels[i].error / expected);
     const std::size_t j = i > 0 ? i - 1 : 1;
     found.reset();
-    if (matters(deviation, levels[j].variable / levels[i].variable) &&
+    // A coarsest level that is off by little is on its way.
+    if ((i > 0 || std::abs(deviation) > std::log(harmless_factor)) &&
+        matters(deviation, levels[j].variable / levels[i].variable) &&
         significant(all, law.residual, n - 1 - parameters, rejection / static_cast<double>(n))) {
       found = {i, deviation};
     }

@@ -24,6 +24,10 @@ struct Window {
 /// three.
 Window asymptotic_window(LevelView levels);
 
+/// A single coarse level that is off by a larger factor is not asymptotic, which nobody takes for scatter; one that is
+/// off by a smaller one does not matter. In between it may be either.
+inline constexpr double coarse_factor = 1.8, harmless_factor = 1.25;
+
 /// A level that lies off the law of all others, and how far: log(error/law).
 struct Outlier {
   std::size_t level;

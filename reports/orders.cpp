@@ -45,6 +45,8 @@ constexpr double slowest_fall = 0.45;
 constexpr double firm_miss = 0.01, firm_level = 0.02;
 /// An order without a drift that is farther than this from theory's is no accident.
 constexpr double clear_distance = 0.4;
+/// Corrections that leave the order at theory's fit well enough if their squares are below this multiple of a line's.
+constexpr double hint_ratio = 2.0;
 /// Orders that still fall by more than this from level to level have not settled on a lower one.
 constexpr double widest_fall = 1.0;
 
@@ -198,7 +200,7 @@ class Evidence {
     if (!(last_ < slowest_fall)) return false;
     const double share = result_.floored.F / all_.back().error;
     return share > 0.5 && share <= 1.0 &&
-           (result_.corrected.order < 0.0 ||
+           ((result_.corrected.order < 0.0 && last_ < 0.5 * slowest_fall) ||
             explains_more(inside_, result_.corrected.residual, result_.floored.residual, 3, 0.05)) &&
            explains_more(inside_, result_.fitted.residual, result_.floored.residual, 3, 0.05);
   }
@@ -361,7 +363,8 @@ class Evidence {
                                              : result_.corrected.order_between(inside_[inside_.size() - 2].variable,
                                                                                inside_.back().variable);
     const bool by_chance = std::abs(last_ - theory_) <= std::min(2.0 * scatter_of_last(), widest_scatter);
-    const bool leaves = std::abs(finest - theory_) > (drifts() ? order_tolerance : extrapolation_tolerance);
+    const bool leaves =
+        std::abs(finest - theory_) > (drifts() || !near(last_) ? order_tolerance : extrapolation_tolerance);
     const bool extrapolates_elsewhere = result_.corrected.low > theory_ + extrapolation_tolerance ||
                                         result_.corrected.high < theory_ - extrapolation_tolerance;
     if (extrapolates_elsewhere || leaves || (!near(last_) && !by_chance)) return std::nullopt;
@@ -443,12 +446,13 @@ class Evidence {
     };
     const CorrectedLaw given = fit_usual_correction_of(inside_, theory_);
     const bool possible = inside_.size() >= 4 && fits_theory(given, firm_level);
-    const bool straight =
-        !drifts() && excludes(result_.fitted) && std::all_of(pairwise_.begin(), pairwise_.end(), beyond) &&
-        std::abs(result_.fitted.order - theory_) > clear_distance && !(given.residual < 1.1 * result_.fitted.residual);
+    const bool straight = !drifts() && excludes(result_.fitted) &&
+                          std::all_of(pairwise_.begin(), pairwise_.end(), beyond) &&
+                          std::abs(result_.fitted.order - theory_) > clear_distance &&
+                          !(given.residual < hint_ratio * result_.fitted.residual);
     const double margin = std::abs(result_.corrected.order - theory_),
                  reach = std::abs(last_ - result_.corrected.order);
-    const bool bent = margin > std::max(order_tolerance, 0.2 * reach) && excludes(result_.corrected) &&
+    const bool bent = margin > std::max(order_tolerance, 0.5 * reach) && excludes(result_.corrected) &&
                       excludes(fit_corrected_law(inside_, firm_miss)) && !possible;
     // The finest orders move toward theory's, beyond where the law says that they go: it does not describe the end.
     const double beyond_law = side < 0.0 ? last_ - result_.corrected.high : result_.corrected.low - last_;

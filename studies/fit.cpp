@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "studies/input_error.hpp"
 #include "studies/number_table.hpp"
@@ -13,96 +14,172 @@ namespace acstudy {
 
 namespace {
 
-std::vector<Level> read_levels(const FitRequest& request) {
-  const NumberTable table(request.file);
-  const std::size_t variable = table.column(request.variable), error = table.column(request.error);
-  const std::size_t weight = request.weight.empty() ? table.columns() : table.column(request.weight);
-  std::vector<Level> levels;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    Level level{table.positive(row, variable), table.number(row, error).value};
-    if (weight < table.columns()) level.weight = table.positive(row, weight);
-    levels.push_back(level);
-  }
-  std::stable_sort(levels.begin(), levels.end(), [](auto& a, auto& b) { return a.variable > b.variable; });
-  return levels;
+void require_positive(const char* option, const std::optional<double>& value, const char* remedy) {
+  if (!value || (std::isfinite(*value) && *value > 0.0)) return;
+  throw InputError(fmt::format("{} = {}; it must be positive and finite; write {}", option, *value, remedy));
 }
 
-std::string interval(const Estimate& estimate) {
-  if (std::isnan(estimate.order)) return "-";
-  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", estimate.order, estimate.low, estimate.high);
-}
-
-}  // namespace
-
-bool Fit::passes() const {
-  if (!request.order) return false;
-  return meets(judgement.verdict, *request.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
-}
-
-Fit fit_table(const FitRequest& request) {
+void require_usable(const FitRequest& request) {
   if (request.order && !(std::isfinite(*request.order) && *request.order >= 0.0)) {
     throw InputError(fmt::format(
         "--order = {}; an order must be finite and not negative; write 0 where the error must settle", *request.order));
   }
-  Fit fit{request, read_levels(request), {}};
-  fit.judgement = judge(fit.levels, request.order.value_or(not_estimated));
+  if (!(std::isfinite(request.dimension) && request.dimension >= 1.0)) {
+    throw InputError(
+        fmt::format("--dimension = {}; it must be finite and at least 1; write that of the space that the cells fill",
+                    request.dimension));
+  }
+  require_positive("--scale", request.options.scale, "the size of the solution, as the largest |u|");
+  require_positive("--floor", request.options.floor, "the error that round-off, quadrature or iteration leaves");
+}
+
+/// The columns that `--error` asks for. A name that a column has is that column, whatever commas it has.
+std::vector<std::size_t> error_columns(const NumberTable& table, Fits& fits) {
+  const FitRequest& request = fits.request;
+  std::vector<std::size_t> columns;
+  const auto add = [&](std::string name) {
+    name.erase(0, name.find_first_not_of(' '));
+    name.erase(name.find_last_not_of(' ') + 1);
+    columns.push_back(table.column(name, "--error"));
+  };
+  for (const std::string& names : request.errors) {
+    if (table.has(names)) {
+      add(names);
+    } else if (names == "all") {
+      fits.several = true;
+      for (std::size_t i = 0; i < table.columns(); ++i) {
+        const std::string& name = table.name(i);
+        if (name.empty() || name == request.variable || name == request.count || name == request.weight) continue;
+        if (const auto row = table.first_without_number(i)) {
+          fits.left_out.push_back(table.place_of(*row, i));
+        } else {
+          columns.push_back(i);
+        }
+      }
+    } else {
+      for (std::size_t begin = 0; begin <= names.size();) {
+        const std::size_t end = std::min(names.find(',', begin), names.size());
+        add(names.substr(begin, end - begin));
+        begin = end + 1;
+      }
+    }
+  }
+  if (columns.empty()) throw InputError("--error all; no column but those of variable, count and weight holds numbers");
+  fits.several = fits.several || columns.size() > 1;
+  return columns;
+}
+
+/// First and last level, from 0, of `--levels`.
+std::pair<std::size_t, std::size_t> level_range(const std::string& text, std::size_t levels) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto number = [](std::string_view digits, std::size_t otherwise) -> std::size_t {
+    std::size_t value = otherwise;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return digits.empty() || (read.ec == std::errc() && read.ptr == digits.data() + digits.size()) ? value : 0;
+  };
+  const std::string_view view = text;
+  const std::size_t first = number(view.substr(0, colon), 1);
+  const std::size_t last = number(view.substr(std::min(colon + 1, text.size())), levels);
+  if (colon == text.size() || text.size() == 1 || first < 1 || last < first || last > levels) {
+    throw InputError(fmt::format(
+        "--levels = \"{}\"; the table has levels 1, the coarsest, to {}; write A:B, A: or :B of these", text, levels));
+  }
+  return {first - 1, last - 1};
+}
+
+enum class Growth { none, possible, whole };
+
+/// Whether the errors fall as the variable grows, and whether it is then whole, as a number of cells is.
+Growth growth(const Fit& fit) {
+  const std::vector<double>& orders = fit.judgement.pairwise;
+  constexpr double clearly = -0.2;  // a first order in three dimensions is -1/3 in the number of cells
+  const auto negative = std::count_if(orders.begin(), orders.end(), [](double order) { return order < clearly; });
+  const bool finite = std::none_of(orders.begin(), orders.end(), [](double order) { return std::isnan(order); });
+  if (!finite || 2 * negative <= static_cast<std::ptrdiff_t>(orders.size())) return Growth::none;
+  if (!(fit.levels.front().error < fit.levels.back().error) || fit.levels.back().variable < 2.0) return Growth::none;
+  const bool whole = std::all_of(fit.levels.begin(), fit.levels.end(),
+                                 [](const Level& level) { return level.variable == std::floor(level.variable); });
+  return whole ? Growth::whole : Growth::possible;
+}
+
+/// An order as a user would write it: the nearest half, if there is one near.
+std::string order_to_ask_for(double order) {
+  const double half = std::round(2.0 * order) / 2.0;
+  return std::abs(order - half) <= extrapolation_tolerance ? fmt::format("{:g}", half) : fmt::format("{:.2f}", order);
+}
+
+/// What only the command line knows: its remedies, and which levels it chose.
+void add_to_reason(Fit& fit, const FitRequest& request, std::size_t first, std::size_t levels) {
+  Judgement& j = fit.judgement;
+  if (const Growth grows = growth(fit); request.count.empty() && grows != Growth::none) {
+    const std::string hint = fmt::format(
+        "the variable {0} grows as the errors fall; if it counts cells, write --count {0} --dimension D, so that h = "
+        "{0}^(-1/D)",
+        request.variable);
+    j.reason = grows == Growth::whole ? hint : j.reason + "; " + hint;
+    if (grows == Growth::whole) j.verdict = Verdict::inconclusive;
+  } else if (j.verdict == Verdict::above && request.order && !std::isnan(j.order)) {
+    j.reason += fmt::format("; theorems are upper bounds: write --order {} to ask for the order that is seen",
+                            order_to_ask_for(j.order));
+  }
+  if (request.levels.empty()) return;
+  j.reason += fmt::format("; levels {} to {} of {}, as asked{}", first + 1, first + fit.levels.size(), levels,
+                          first > 0 ? ", here counted from 1" : "");
+}
+
+/// Levels as the rows stand, with variable and weight but no error yet.
+std::vector<Level> read_levels(const NumberTable& table, const FitRequest& request) {
+  const bool counts = !request.count.empty(), weighted = !request.weight.empty();
+  const std::size_t variable =
+      counts ? table.column(request.count, "--count") : table.column(request.variable, "--variable");
+  const std::size_t weight = weighted ? table.column(request.weight, "--weight") : 0;
+  std::vector<Level> levels;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double value = table.positive(row, variable);
+    levels.push_back({counts ? std::pow(value, -1.0 / request.dimension) : value, not_estimated});
+    if (weighted) levels.back().weight = table.positive(row, weight);
+  }
+  return levels;
+}
+
+/// Judges the errors in a column at `levels`, which stand as the rows do.
+Fit fit_column(const NumberTable& table, std::size_t column, std::vector<Level> levels, const FitRequest& request) {
+  const std::vector<Printed> errors = table.numbers(column);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const auto [error, half_unit] = errors[i];
+    levels[i].error = error;
+    if (half_unit > 0.0) levels[i].noise = half_unit / std::abs(error) / std::sqrt(3.0);
+  }
+  std::stable_sort(levels.begin(), levels.end(),
+                   [](const Level& a, const Level& b) { return a.variable > b.variable; });
+  std::size_t first = 0, last = levels.size() - 1;
+  if (!request.levels.empty()) std::tie(first, last) = level_range(request.levels, levels.size());
+  const auto begin = levels.begin() + static_cast<std::ptrdiff_t>(first);
+  Fit fit{table.name(column), {begin, begin + static_cast<std::ptrdiff_t>(last - first) + 1}, {}};
+  fit.judgement = judge(fit.levels, request.order.value_or(not_estimated), request.options);
+  add_to_reason(fit, request, first, levels.size());
   return fit;
 }
 
-std::string as_text(const Fit& fit) {
-  const Judgement& j = fit.judgement;
-  const std::string& v = fit.request.variable;
-  std::string text = fmt::format("{:>5}  {:>11}  {:>11}  {:>8}\n", "level", v, fit.request.error, "order");
-  for (std::size_t i = 0; i < fit.levels.size(); ++i) {
-    text += fmt::format("{:>5}  {:>11.4g}  {:>11.4g}  {:>8}\n", i + 1, fit.levels[i].variable, fit.levels[i].error,
-                        i == 0 ? "-" : fmt::format("{:.3f}", j.pairwise[i - 1]));
-  }
-  text += "\norder and 95 % interval\n";
-  const auto row = [&text](const std::string& model, const std::string& order, const std::string& rest) {
-    text += fmt::format("  {:<28}  {:<24}  {}", model, order, rest);
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
-  };
-  const auto known = [](double value, const std::string& words) { return std::isnan(value) ? "" : words; };
-  row(fmt::format("error = C {}^p", v), interval(j.fitted),
-      known(j.leave_one_out.change,
-            fmt::format("{:+.3f} without level {}", j.leave_one_out.change, j.leave_one_out.level + 1)));
-  row(fmt::format("error = C {0}^p (1 + D {0}^q)", v), interval(j.corrected),
-      known(j.corrected.D, fmt::format("D = {:.3g}, q = {:.3g}", j.corrected.D, j.corrected.q)));
-  row(fmt::format("error = C {}^p + F", v), interval(j.floored),
-      known(j.floored.F, fmt::format("F = {:.3g}", j.floored.F)));
-  row("reported", interval(j), fmt::format("levels {} to {}", j.window.first + 1, j.window.last + 1));
-  return text + fmt::format("\n{}{}: {}\n", name_of(j.verdict),
-                            fit.request.order ? fmt::format(" (order {:g})", *fit.request.order) : "", j.reason);
+}  // namespace
+
+bool Fits::passes() const {
+  const Verdict wanted = !request.order          ? Verdict::determined
+                         : *request.order == 0.0 ? Verdict::stagnates
+                                                 : Verdict::confirmed;
+  return std::all_of(columns.begin(), columns.end(),
+                     [wanted](const Fit& fit) { return meets(fit.judgement.verdict, wanted); });
 }
 
-std::string as_json(const Fit& fit) {
-  using json = nlohmann::ordered_json;
-  const Judgement& j = fit.judgement;
-  json out = {{"verdict", name_of(j.verdict)},
-              {"reason", j.reason},
-              {"theory_order", nullptr},
-              {"order", j.order},
-              {"low", j.low},
-              {"high", j.high},
-              {"pairwise", j.pairwise}};
-  if (fit.request.order) out["theory_order"] = *fit.request.order;
-  out["window"] = {{"first", j.window.first + 1}, {"last", j.window.last + 1}};
-  out["fitted"] = {{"order", j.fitted.order}, {"low", j.fitted.low}, {"high", j.fitted.high}, {"C", j.fitted.C}};
-  out["extrapolated"] = {{"order", j.corrected.order}, {"low", j.corrected.low}, {"high", j.corrected.high},
-                         {"C", j.corrected.C},         {"D", j.corrected.D},     {"q", j.corrected.q}};
-  out["floor"] = {{"order", j.floored.order},
-                  {"low", j.floored.low},
-                  {"high", j.floored.high},
-                  {"C", j.floored.C},
-                  {"F", j.floored.F}};
-  out["leave_one_out"] = {{"change", j.leave_one_out.change}, {"level", nullptr}};
-  if (!std::isnan(j.leave_one_out.change)) out["leave_one_out"]["level"] = j.leave_one_out.level + 1;
-  out["levels"] = json::array();
-  for (const Level& level : fit.levels) {
-    out["levels"].push_back({{"variable", level.variable}, {"error", level.error}, {"weight", level.weight}});
+Fits fit_table(const FitRequest& request) {
+  require_usable(request);
+  const NumberTable table(request.file);
+  Fits fits{request, false, {}, {}};
+  const std::vector<Level> levels = read_levels(table, request);
+  for (const std::size_t column : error_columns(table, fits)) {
+    fits.columns.push_back(fit_column(table, column, levels, request));
   }
-  return out.dump(2) + "\n";  // the library writes null for what is not finite
+  return fits;
 }
 
 }  // namespace acstudy

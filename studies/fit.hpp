@@ -11,32 +11,47 @@
 
 namespace acstudy {
 
-/// A table, the names of its columns, and what theory says of it.
+/// A table, the names of its columns, and what is known of its errors.
 struct FitRequest {
-  std::string file, variable = "h", error = "error";
-  std::string weight;           ///< empty: all levels weigh the same
-  std::optional<double> order;  ///< 0: the error must settle
+  std::string file;                             ///< "-": standard input
+  std::string variable = "h";                   ///< column of the variable
+  std::string count;                            ///< in its place: column of a number n of cells; h = n^(-1/dimension)
+  double dimension = 1.0;                       ///< of the space that the cells fill
+  std::vector<std::string> errors = {"error"};  ///< each one column, several with commas, or "all"
+  std::string weight;                           ///< empty: all levels weigh the same
+  std::string levels;                           ///< "A:B", "A:" or ":B", from 1, coarse to fine; empty: all
+  std::optional<double> order;                  ///< 0: the error must settle
+  JudgeOptions options = {};
 };
 
+/// The judgement of one column of errors.
 struct Fit {
-  FitRequest request;
-  std::vector<Level> levels;  ///< coarse to fine
+  std::string error;          ///< name of the column
+  std::vector<Level> levels;  ///< those that were asked for, coarse to fine
   Judgement judgement;
+};
 
-  /// True if an order was given and the errors have it; for order 0, if they settle.
+struct Fits {
+  FitRequest request;
+  bool several = false;  ///< several columns were asked for, even if there is only one
+  std::vector<Fit> columns;
+  std::vector<std::string> left_out;  ///< what "all" leaves out and why
+
+  /// True if the errors of every column have the order that was asked for; for order 0, if they settle; without an
+  /// order, if they determine one.
   bool passes() const;
 };
 
-/// Reads a table and judges it. Its first line names the columns; commas, semicolons, or blanks and tabs separate them;
-/// '#' begins a comment; rows may stand in any order. An error may be nan or inf, a variable or a weight must be
-/// positive.
+/// Reads a table and judges its errors, in columns that NumberTable reads. Rows may stand in any order. An error may be
+/// nan or inf, a variable, a count or a weight must be positive. Where the variable grows as the errors fall, and is
+/// whole as a number of cells, the verdict is `inconclusive` and its reason the remedy.
 /// @throws InputError
-Fit fit_table(const FitRequest& request);
+Fits fit_table(const FitRequest& request);
 
-/// Levels, estimates, verdict and reason, for people.
-std::string as_text(const Fit& fit);
+/// Levels, estimates, verdict and reason of every column, for people.
+std::string as_text(const Fits& fits);
 
-/// The same as one JSON object; null for what is not finite.
-std::string as_json(const Fit& fit);
+/// The same as one JSON object, with an array `columns` if several were asked for; null for what is not finite.
+std::string as_json(const Fits& fits);
 
 }  // namespace acstudy

@@ -275,17 +275,41 @@ int main(int argc, char** argv) {
 
   FitRequest request;
   bool json = false;
-  CLI::App* const fit_command =
-      app.add_subcommand("fit", "Judge a table of errors; exit 0 only if they have the order of --order");
-  fit_command->add_option("TABLE.csv", request.file, "a table whose first line names its columns")->required();
-  fit_command->add_option("--variable", request.variable, "column of the variable")
-      ->type_name("NAME")
+  CLI::App* const fit_command = app.add_subcommand(
+      "fit", "Judge a table of errors; exit 0 only if all have the order of --order, or without it a sharp one");
+  fit_command->add_option("TABLE.csv", request.file, "a table whose first line names its columns; -: standard input")
+      ->required();
+  CLI::Option* const variable_option = fit_command->add_option("--variable", request.variable, "column of the variable")
+                                           ->type_name("NAME")
+                                           ->capture_default_str();
+  CLI::Option* const count_option =
+      fit_command->add_option("--count", request.count, "in its place, column of a number n of cells: h = n^(-1/D)")
+          ->type_name("NAME")
+          ->excludes(variable_option);
+  fit_command->add_option("--dimension", request.dimension, "dimension D of the space that the cells fill")
+      ->type_name("D")
+      ->needs(count_option)
       ->capture_default_str();
-  fit_command->add_option("--error", request.error, "column of the errors")->type_name("NAME")->capture_default_str();
+  fit_command
+      ->add_option("--error", request.errors,
+                   "columns of errors, each judged; all: every column of numbers but variable, count and weight")
+      ->type_name("NAME,...")
+      ->allow_extra_args(false)
+      ->capture_default_str();
   fit_command
       ->add_option("--weight", request.weight, "column of weights, as one over the variance of the relative error")
       ->type_name("NAME");
+  fit_command
+      ->add_option("--levels", request.levels, "levels to judge, as 3:8, 3: or :6; 1 is the coarsest, ends included")
+      ->type_name("A:B");
   fit_command->add_option("--order", request.order, "theory's order; 0: the error must settle")->type_name("P");
+  fit_command
+      ->add_option("--scale", request.options.scale, "size of the solution; errors below 1e-12 times it are round-off")
+      ->type_name("S");
+  fit_command
+      ->add_option("--floor", request.options.floor,
+                   "error that round-off, quadrature or iteration leaves; errors below it tell nothing")
+      ->type_name("F");
   fit_command->add_flag("--json", json, "print one JSON object");
 
   BenchRequest bench_request;
@@ -357,9 +381,9 @@ int main(int argc, char** argv) {
       bench_request.command = command;
       status = bench(files, bench_request);
     } else if (*fit_command) {
-      const Fit fit = fit_table(request);
-      fmt::print("{}", json ? as_json(fit) : as_text(fit));
-      status = fit.passes() ? done : departs;
+      const Fits fits = fit_table(request);
+      fmt::print("{}", json ? as_json(fits) : as_text(fits));
+      status = fits.passes() ? done : departs;
     } else if (*list_command) {
       print_list(what);
     } else {

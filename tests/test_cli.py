@@ -777,7 +777,8 @@ class Words(ProgramTest):
         for arguments, words in ((("--help",), ("run", "check", "fit", "bench", "explain", "list", "--version", "Exit codes", "130")),
                                  (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--repeats", "--fresh")),
                                  (("check", "--help"), ("FILE.json", "exit 1")),
-                                 (("fit", "--help"), ("TABLE.csv", "--variable", "--error", "--weight", "--order", "--json")),
+                                 (("fit", "--help"), ("TABLE.csv", "--variable", "--count", "--dimension", "--error", "--weight", "--levels",
+                                                      "--order", "--scale", "--floor", "--json")),
                                  (("explain", "--help"), ("STUDY.toml",)),
                                  (("list", "--help"), ("schemes", "kernels", "integrators", "scenes"))):
             done = self.acstudy(*arguments)

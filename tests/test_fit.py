@@ -89,43 +89,105 @@ class VerdictTest(FitTest):
             self.assertIn(words, done.stdout)
 
 
-class TableTest(FitTest):
-    def test_separators_comments_order_and_line_ends_do_not_matter(self):
-        expected = self.judged(table(power(1)), code=1)
-        rows = table(power(1)).splitlines()
-        for text in (table(power(1), ";"), table(power(1), "\t"), table(power(1), "  "), table(power(1), " , "),
-                     "\n".join([rows[0]] + rows[:0:-1]), "\r\n".join(rows), "\ufeff" + "\n".join(rows),
-                     "# made by hand\n\n" + "\n".join(f"{row}  # so it is" for row in rows) + "\n\n",
-                     table(power(1), header=('"h"', '"error"'))):
-            self.assertEqual(self.judged(text, code=1), expected, text)
+class UnitsTest(FitTest):
+    def test_units_of_the_errors_decide_nothing(self):
+        finer = [2.0 ** -k for k in range(3, 11)]
+        for order, variables, errors in (
+                ("1", HALVED, power(1)), ("2", HALVED, power(1)), ("1", HALVED, power(1, -3.9)),
+                ("1", HALVED, [0.01 + 0.001 * v for v in HALVED]), ("0", HALVED, [0.01 + 0.001 * v for v in HALVED]),
+                ("3", finer, [float(f"{2e-4 * v ** 3 * (1 + 0.2 * v):.2e}") for v in finer]),
+                ("2", finer, [float(f"{0.05 * v ** 2 * (1 + 2 * v):.3e}") for v in finer]),
+                ("2", finer, [0.05 * v ** 2 * (1 + 0.02 * (-1) ** i) for i, v in enumerate(finer)])):
+            results = [self.fit(table([unit * e for e in errors], variables=variables), "--json", "--order", order)
+                       for unit in (1, 1e-9, 1e9)]
+            expected, *others = [(done.returncode, json.loads(done.stdout)) for done in results]
+            for code, result in others:
+                self.assertEqual((code, result["verdict"], result["window"]),
+                                 (expected[0], expected[1]["verdict"], expected[1]["window"]), errors)
+                for key in ("order", "low", "high"):
+                    self.assertAlmostEqual(result[key], expected[1][key], delta=1e-4)
 
-    def test_columns_have_names(self):
-        text = "N;L2;spacing;n\n" + "".join(f"{i};{e!r};{v!r};{1 + i}\n" for i, (v, e) in enumerate(zip(HALVED, power(2))))
-        result = self.judged(text, "--variable", "spacing", "--error", "L2", "--weight", "n", "--order", "2", code=0)
-        self.assertEqual([level["weight"] for level in result["levels"]], [1, 2, 3, 4, 5])
-        self.assert_bad_input(self.fit(text), 'table.csv:1:1: no column "h"; the columns are N, L2, spacing, n; '
-                                              "choose with --variable, --error and --weight")
 
-    def test_what_cannot_be_read_is_named_by_line_and_column(self):
-        not_a_number = "not a number that a double can hold; write one such as 1.5e-3, nan or inf"
-        positive = "it must be positive and finite; correct it or leave the row out"
-        for text, message in (
-                ("h,error\n0.1,abc\n", f'2:5: error = "abc"; {not_a_number}'),
-                ("h,error\n0.1, 1e999\n", f'2:6: error = "1e999"; {not_a_number}'),
-                ("h,error\n0.1,\n", f'2:5: error = ""; {not_a_number}'),
-                ("h,error\n0.1,0.2x\n", f'2:5: error = "0.2x"; {not_a_number}'),
-                ("h;error\n0,1;0.2\n", f'2:1: h = "0,1"; {not_a_number}'),
-                ("h,error\n-0.1,0.2\n", f"2:1: h = -0.1; {positive}"),
-                ("h,error\nnan,0.2\n", f"2:1: h = nan; {positive}"),
-                ("h,error\n# x\n0.1,0.2,3\n",
-                 "3:1: 3 value(s), but the header names 2 column(s); write one value for each"),
-                ("h,error,h\n", '1:9: a second column "h"; name each once'),
-                ("h,error\n", "1:1: the table has a header and no rows; write a row for each level"),
-                ("# nothing\n", "1:1: the table has no header; write the names of the columns in its first line")):
-            self.assert_bad_input(self.fit(text), f"table.csv:{message}")
-        missing = "cannot read a table there; name a file whose first line names its columns"
-        for file in ("none.csv", "."):
-            self.assert_bad_input(self.acstudy("fit", file), f"{file}: {missing}")
+class RequestTest(FitTest):
+    COLUMNS = "N;L2;max, scaled;rate;run\n" + "".join(
+        f"{n};{0.1 / n ** 2!r};{0.3 / n!r};{'-' if n == 10 else 2};a\n" for n in (10, 20, 40, 80, 160))
+
+    def test_several_columns_are_judged_at_once(self):
+        alone = self.judged(self.COLUMNS, "--count", "N", "--error", "L2", "--order", "2", code=0)
+        self.assertEqual((alone.pop("column"), alone.pop("count"), alone.pop("dimension")), ("L2", "N", 1))
+        for asked in (("--error", "L2", "--error", "max, scaled"), ("--error", "all")):
+            result = self.judged(self.COLUMNS, "--count", "N", *asked, "--order", "2", code=1)
+            self.assertEqual([(c.pop("error"), c["verdict"]) for c in result["columns"]],
+                             [("L2", "confirmed"), ("max, scaled", "below")])
+            self.assertEqual(result["columns"][0], alone)
+            self.assertEqual(result["left_out"], ["2:15: rate = -", "2:17: run = a"] if "all" in asked else [])
+        text = table(power(1), header=("h", "l1"))
+        both = "\n".join(f"{row},{'l2' if row.startswith('h') else row.split(',')[1]}" for row in text.splitlines())
+        self.assertEqual(len(self.judged(both, "--error", "l1, l2", "--order", "1", code=0)["columns"]), 2)
+        done = self.fit(both, "--error", "l1,l2", "--order", "1")
+        self.assertEqual((done.returncode, done.stdout.count("confirmed (order 1)")), (0, 2))
+        self.assert_bad_input(self.fit(both, "--error", "l1,l3"),
+                              'table.csv:1:1: no column "l3"; the columns are h, l1, l2; name one with --error')
+        self.assert_bad_input(self.fit("h,error\n0.1,x\n", "--error", "all"),
+                              "--error all; no column but those of variable, count and weight holds numbers")
+
+    def test_all_columns_may_have_columns_of_the_same_name(self):
+        text = "h,l2,order,linf,order\n" + "".join(f"{v!r},{v!r},2,{2 * v!r},2\n" for v in HALVED)
+        result = self.judged(text, "--error", "all", "--order", "1", code=1)
+        self.assertEqual([column["error"] for column in result["columns"]], ["l2", "order", "linf", "order"])
+        self.assert_bad_input(self.fit(text, "--error", "order"), 'table.csv:1:17: a second column "order"; name each once')
+
+    def test_levels_are_chosen_coarse_to_fine(self):
+        errors = [0.3 * v for v in HALVED]
+        errors[0] = 7.0
+        rows = table(errors).splitlines()
+        text = "\n".join([rows[0]] + rows[:0:-1])
+        for levels, chosen, words in (("2:", HALVED[1:], "levels 2 to 5 of 5, as asked, here counted from 1"),
+                                      (":3", HALVED[:3], "levels 1 to 3 of 5, as asked"),
+                                      ("2:4", HALVED[1:4], "levels 2 to 4 of 5, as asked, here counted from 1")):
+            result = self.judged(text, "--levels", levels, "--order", "1", code=levels == ":3")
+            self.assertEqual([level["variable"] for level in result["levels"]], chosen)
+            self.assertTrue(result["reason"].endswith(words), result["reason"])
+        for levels in ("", ":", "3", "0:", "2:6", "4:3", "a:b", "1:2:3", "-1:", "1.5:"):
+            done = self.fit(text, f"--levels={levels}")
+            if levels:
+                self.assert_bad_input(done, f'--levels = "{levels}"; the table has levels 1, the coarsest, to 5; '
+                                            "write A:B, A: or :B of these")
+
+    def test_counts_of_cells_become_the_variable(self):
+        cells = [2 ** (2 * k) for k in range(2, 8)]
+        text = table([3 / n for n in cells], variables=cells, header=("cells", "error"))
+        result = self.judged(text, "--count", "cells", "--dimension", "2", "--order", "2", code=0)
+        self.assertEqual([level["variable"] for level in result["levels"]], [2.0 ** -k for k in range(2, 8)])
+        self.assertIn("h = cells^(-1/2)", self.fit(text, "--count", "cells", "--dimension", "2").stdout)
+        self.assertAlmostEqual(self.judged(text, "--count", "cells", "--order", "1", code=0)["order"], 1)
+        hint = ("the variable cells grows as the errors fall; if it counts cells, write --count cells --dimension D, "
+                "so that h = cells^(-1/D)")
+        for order in ((), ("--order", "2"), ("--order", "0")):
+            result = self.judged(text, "--variable", "cells", *order, code=1)
+            self.assertEqual((result["verdict"], result["reason"]), ("inconclusive", hint))
+        broken = table([3 / n for n in cells[:-2]] + [math.nan, 3], variables=cells)
+        self.assertEqual(self.judged(broken, "--variable", "h", code=1)["verdict"], "unstable")
+        scaled = table([3 / n for n in cells], variables=[n / 3 for n in cells])
+        self.assertIn("; the variable h grows as", self.judged(scaled, code=1)["reason"])
+        self.assertEqual(self.judged(table([1, 2, 4, 8, 16]), code=1)["verdict"], "diverges")
+        self.assertNotIn("--count", self.judged(table([1, 2, 4, 8, 16]), code=1)["reason"])
+
+    def test_above_names_its_remedy(self):
+        for p, order in ((2, "2"), (1.52, "1.5"), (1.75, "1.75")):
+            reason = self.judged(table(power(p)), "--order", "0.5", code=1)["reason"]
+            self.assertIn(f"theorems are upper bounds: write --order {order} to ask for the order that is seen", reason)
+
+    def test_numbers_of_the_command_line_are_checked(self):
+        positive = "it must be positive and finite; write"
+        for option, value, rest in (("--scale", "0", f"{positive} the size of the solution, as the largest |u|"),
+                                    ("--floor", "inf", f"{positive} the error that round-off, quadrature or iteration leaves")):
+            self.assert_bad_input(self.fit(table(power(1)), option, value), f"{option} = {value}; {rest}")
+        self.assert_bad_input(self.fit(table(power(1)), "--count", "h", "--dimension", "0.5"),
+                              "--dimension = 0.5; it must be finite and at least 1; "
+                              "write that of the space that the cells fill")
+        for arguments in (("--dimension", "2"), ("--count", "h", "--variable", "h")):
+            self.assertEqual(self.fit(table(power(1)), *arguments).returncode, 2)
 
     def test_an_order_is_finite_and_not_negative(self):
         for order in ("-1", "nan", "inf"):

@@ -239,11 +239,19 @@ ValueLaw fit_corrected_value_law(std::span<const Value> values) {
   return law;
 }
 
+ValueLaw reported_value_law(std::span<const Value> values) {
+  return values.size() > 4 ? fit_corrected_value_law(values) : fit_value_law(values);
+}
+
 std::vector<Difference> differences_of(std::span<const Value> values) {
+  // A double holds a number to half a unit of its last bit, however many digits are printed.
+  const auto open = [](const Value& value) {
+    return std::max(value.digits, std::abs(value.value) * std::numeric_limits<double>::epsilon() / 2.0);
+  };
   std::vector<Difference> all;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const Value &coarse = values[i - 1], &fine = values[i];
-    all.push_back({coarse.variable, fine.variable, coarse.value - fine.value, coarse.digits + fine.digits});
+    all.push_back({coarse.variable, fine.variable, coarse.value - fine.value, open(coarse) + open(fine)});
   }
   return all;
 }

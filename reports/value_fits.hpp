@@ -44,6 +44,9 @@ ValueLaw fit_value_law(std::span<const Value> values);
 /// levels do not exclude; at the coarsest level D v^q stays between -0.95 and 3, as in `fit_corrected_law`.
 ValueLaw fit_corrected_value_law(std::span<const Value> values);
 
+/// The one that is reported: with a correction where there are levels for it.
+ValueLaw reported_value_law(std::span<const Value> values);
+
 /// The changes from each level to the next; what digits leave open adds up.
 std::vector<Difference> differences_of(std::span<const Value> values);
 

@@ -64,13 +64,13 @@ std::optional<Conclusion> unusable(std::span<const Difference> differences) {
 }
 
 /// `judge` of the errors that differences stand for. At unequal ratios these depend a little on the order.
-Judgement judge_errors(std::span<const Difference> differences, double theory) {
+Judgement judge_errors(std::span<const Difference> differences, double theory, const JudgeOptions& options) {
   double p = theory > 0.0 ? theory : 1.0;
   Judgement judgement;
   for (int pass = 0; pass < 4; ++pass) {
     std::vector<Level> levels;
     for (const Difference& difference : differences) levels.push_back(level_of(difference, p));
-    judgement = judge(levels, theory);
+    judgement = judge(levels, theory, options);
     const double order = judgement.fitted.order;
     if (std::isnan(order) || std::abs(order - p) <= 1e-6) break;
     p = std::clamp(order, 0.1, 20.0);
@@ -106,7 +106,8 @@ double richardson(double finest, const Difference& last, double order) {
   return finest - last.difference / std::expm1(order * std::log(last.variable / last.finer));
 }
 
-ValueJudgement judge_either(std::span<const Value> values, std::vector<Difference> differences, double theory) {
+ValueJudgement judge_either(std::span<const Value> values, std::vector<Difference> differences, double theory,
+                            const JudgeOptions& options) {
   ValueJudgement result;
   result.differences = std::move(differences);
   const std::span<const Difference> all = result.differences;
@@ -134,7 +135,7 @@ ValueJudgement judge_either(std::span<const Value> values, std::vector<Differenc
   }
 
   const std::size_t left_out = all.size() - monotone;
-  const Judgement judgement = judge_errors(all.subspan(left_out), theory);
+  const Judgement judgement = judge_errors(all.subspan(left_out), theory, options);
   result.verdict = judgement.verdict;
   result.first = left_out + judgement.window.first;
   static_cast<Estimate&>(result) = judgement;
@@ -177,12 +178,13 @@ ValueJudgement judge_either(std::span<const Value> values, std::vector<Differenc
 
 }  // namespace
 
-ValueJudgement judge_values(std::span<const Value> values, double theory_order) {
-  return judge_either(values, differences_of(values), theory_order);
+ValueJudgement judge_values(std::span<const Value> values, double theory_order, const JudgeOptions& options) {
+  return judge_either(values, differences_of(values), theory_order, options);
 }
 
-ValueJudgement judge_differences(std::span<const Difference> differences, double theory_order) {
-  return judge_either({}, {differences.begin(), differences.end()}, theory_order);
+ValueJudgement judge_differences(std::span<const Difference> differences, double theory_order,
+                                 const JudgeOptions& options) {
+  return judge_either({}, {differences.begin(), differences.end()}, theory_order, options);
 }
 
 }  // namespace acstudy

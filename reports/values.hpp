@@ -37,11 +37,12 @@ struct ValueJudgement : Estimate {
 /// Values that swing about their limit to the end have no order that could be judged.
 ///
 /// @param values        coarse to fine
-/// @param theory_order  as for `judge`
-ValueJudgement judge_values(std::span<const Value> values, double theory_order);
+/// @param theory_order, options  as for `judge`
+ValueJudgement judge_values(std::span<const Value> values, double theory_order, const JudgeOptions& options = {});
 
 /// The same where only differences of successive levels are known, or their norms. There is no limit then.
 /// @param differences  coarse to fine, each beginning where the one before ends
-ValueJudgement judge_differences(std::span<const Difference> differences, double theory_order);
+ValueJudgement judge_differences(std::span<const Difference> differences, double theory_order,
+                                 const JudgeOptions& options = {});
 
 }  // namespace acstudy

@@ -1,5 +1,6 @@
 #include "reports/value_fits.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_multifit.h>
 
 #include <algorithm>
@@ -17,7 +18,13 @@ constexpr double lowest_order = 0.05, highest_order = 20.0;
 constexpr double smallest_correction = -0.95, largest_correction = 3.0;
 /// Where its printed digits leave more than this share of its error open, a level weighs less.
 constexpr double usual_scatter = 0.01;
-constexpr double corrections[] = {0.5, 1.0, 2.0};
+constexpr double corrections[] = {0.5, 1.0, 2.0}, no_correction[] = {0.0};
+
+/// What the scatter of the values is.
+enum class Noise {
+  digits,  ///< what their printed digits leave open, and nothing else
+  errors,  ///< in proportion to their errors, or what digits leave open where that is more
+};
 
 /// Linear least squares at one p, in units of the coarsest variable and of the range of the values.
 struct Line {
@@ -28,8 +35,8 @@ struct Line {
 
 class Profile {
  public:
-  explicit Profile(std::span<const Value> values)
-      : n_(values.size()), finest_(values.back().value), coarsest_(values.front().variable) {
+  Profile(std::span<const Value> values, Noise noise)
+      : n_(values.size()), noise_(noise), finest_(values.back().value), coarsest_(values.front().variable) {
     const auto [low, high] =
         std::minmax_element(values.begin(), values.end(), [](auto& a, auto& b) { return a.value < b.value; });
     range_ = high->value - low->value;
@@ -73,7 +80,7 @@ class Profile {
     return line;
   }
 
-  /// The least that the residual can be per degree of freedom, for the digits that values are printed with.
+  /// The residual per degree of freedom that printed digits alone make.
   double least(double p) const {
     weigh(p);
     double sum = 0.0;
@@ -104,7 +111,9 @@ class Profile {
     double mean = 0.0;
     std::vector<double> logarithms(n_);
     for (std::size_t i = 0; i < n_; ++i) {
-      logarithms[i] = -2.0 * std::log(std::hypot(std::pow(x_[i], p), digits_[i] / usual_scatter));
+      const double deviation =
+          noise_ == Noise::digits ? digits_[i] : std::hypot(std::pow(x_[i], p), digits_[i] / usual_scatter);
+      logarithms[i] = -2.0 * std::log(deviation);
       mean += logarithms[i] / static_cast<double>(n_);
     }
     for (std::size_t i = 0; i < n_; ++i) gsl_vector_set(weights_.get(), i, std::exp(logarithms[i] - mean));
@@ -127,6 +136,7 @@ class Profile {
   }
 
   std::size_t n_;
+  Noise noise_;
   double finest_, coarsest_, range_;
   std::vector<double> x_, y_, digits_;
   mutable std::vector<double> basis_[3];
@@ -137,7 +147,8 @@ class Profile {
 /// The law with a correction of this exponent, or without one for q = 0.
 struct Fitted {
   ValueLaw law;
-  double residual = infinity, bound = infinity;  ///< the least one, and the largest within the interval
+  double residual, bound;  ///< the least one, and the largest within the interval
+  bool explained;          ///< printed digits explain the residual
 };
 
 Fitted fit(const Profile& profile, std::size_t n, double q) {
@@ -172,9 +183,10 @@ Fitted fit(const Profile& profile, std::size_t n, double q) {
   law.q = q;
   law.D = profile.correction(line.D, q);
 
-  const std::size_t free = n - parameters;
-  const double t = student(0.95, free);
-  const double bound = smallest + t * t * std::max(smallest / static_cast<double>(free), profile.least(law.order));
+  // Student's t also where digits explain the scatter: levels that follow another law may do so by chance.
+  const double free = static_cast<double>(n - parameters), t = student(0.95, n - parameters);
+  const double known = profile.least(law.order);
+  const double bound = smallest + t * t * std::max(smallest / free, known);
   // The farthest p at which the residual stays within the bound; it may exceed it in between.
   const auto boundary = [&](int end, int step) {
     int outer = end;
@@ -211,26 +223,27 @@ Fitted fit(const Profile& profile, std::size_t n, double q) {
       law.value = not_estimated;
     }
   }
-  return {law, smallest, bound};
+  return {law, smallest, bound, smallest <= known * gsl_cdf_chisq_Pinv(0.5, free)};
 }
 
-}  // namespace
-
-ValueLaw fit_value_law(std::span<const Value> values) {
-  if (values.size() < 4) return {};
-  return fit(Profile(values), values.size(), 0.0).law;
-}
-
-ValueLaw fit_corrected_value_law(std::span<const Value> values) {
-  if (values.size() < 5) return {};
-  const Profile profile(values);
+/// Unites the fits with corrections of these exponents, of all that the best does not exclude.
+ValueLaw fit_with_any(std::span<const Value> values, std::span<const double> exponents, std::size_t parameters) {
+  if (values.size() <= parameters) return {};
+  const bool printed = std::all_of(values.begin(), values.end(), [](const Value& v) { return v.digits > 0.0; });
   std::vector<Fitted> fits;
-  for (const double q : corrections) fits.push_back(fit(profile, values.size(), q));
-  const Fitted best =
-      *std::min_element(fits.begin(), fits.end(), [](auto& a, auto& b) { return a.residual < b.residual; });
-  ValueLaw law = best.law;
+  const auto best = [&] {
+    return std::min_element(fits.begin(), fits.end(), [](auto& a, auto& b) { return a.residual < b.residual; });
+  };
+  for (const Noise noise : {Noise::digits, Noise::errors}) {
+    if (noise == Noise::digits && !printed) continue;
+    const Profile profile(values, noise);
+    fits.clear();
+    for (const double q : exponents) fits.push_back(fit(profile, values.size(), q));
+    if (best()->explained) break;
+  }
+  ValueLaw law = best()->law;
   for (const Fitted& other : fits) {
-    if (!(other.residual <= best.bound)) continue;
+    if (!(other.residual <= best()->bound)) continue;
     law.low = std::min(law.low, other.law.low);
     law.high = std::max(law.high, other.law.high);
     law.value_low = std::min(law.value_low, other.law.value_low);
@@ -238,6 +251,12 @@ ValueLaw fit_corrected_value_law(std::span<const Value> values) {
   }
   return law;
 }
+
+}  // namespace
+
+ValueLaw fit_value_law(std::span<const Value> values) { return fit_with_any(values, no_correction, 3); }
+
+ValueLaw fit_corrected_value_law(std::span<const Value> values) { return fit_with_any(values, corrections, 4); }
 
 ValueLaw reported_value_law(std::span<const Value> values) {
   return values.size() > 4 ? fit_corrected_value_law(values) : fit_value_law(values);

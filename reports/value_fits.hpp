@@ -3,10 +3,11 @@
 /// @file
 /// Models of a value under refinement whose limit is not known: phi_0 + C v^p, with and without a correction.
 ///
-/// The scatter of a value is taken to be in proportion to its error, C v^p, but no less than what its printed digits
-/// leave open. Each model is weighted least squares at the actual variable of each level, linear in all but p; the
-/// interval is that of the profile over p. Preconditions throughout: levels from coarse to fine, variables positive and
-/// falling strictly, values finite and not all equal.
+/// Where printed digits explain the scatter of the values (no more of it than chance makes in half of all cases) it is
+/// taken for that; otherwise it is in proportion to their errors, C v^p, and no less than digits leave open. Each model
+/// is weighted least squares at the actual variable of each level, linear in all but p; the interval is that of the
+/// profile over p. Preconditions throughout: levels from coarse to fine, variables positive and falling strictly,
+/// values finite and not all equal.
 
 #include <optional>
 #include <span>

@@ -22,6 +22,9 @@ struct FitRequest {
   std::string levels;                           ///< "A:B", "A:" or ":B", from 1, coarse to fine; empty: all
   std::optional<double> order;                  ///< 0: the error must settle
   JudgeOptions options = {};
+  std::vector<std::string> values, differences;  ///< in place of errors: columns of values, of their differences
+
+  Verdict wanted() const;  ///< what passes
 };
 
 /// The judgement of one column of errors.

@@ -19,7 +19,7 @@
 #include "studies/bench_command.hpp"
 #include "studies/check.hpp"
 #include "studies/explain.hpp"
-#include "studies/fit.hpp"
+#include "studies/fit_values.hpp"
 #include "studies/gate.hpp"
 #include "studies/list.hpp"
 #include "studies/runner.hpp"
@@ -276,7 +276,8 @@ int main(int argc, char** argv) {
   FitRequest request;
   bool json = false;
   CLI::App* const fit_command = app.add_subcommand(
-      "fit", "Judge a table of errors; exit 0 only if all have the order of --order, or without it a sharp one");
+      "fit",
+      "Judge a table of errors or values; exit 0 only if all have the order of --order, or without it a sharp one");
   fit_command->add_option("TABLE.csv", request.file, "a table whose first line names its columns; -: standard input")
       ->required();
   CLI::Option* const variable_option = fit_command->add_option("--variable", request.variable, "column of the variable")
@@ -290,15 +291,33 @@ int main(int argc, char** argv) {
       ->type_name("D")
       ->needs(count_option)
       ->capture_default_str();
+  CLI::Option* const error_option =
+      fit_command
+          ->add_option("--error", request.errors,
+                       "columns of errors, each judged; all: every column of numbers but variable, count and weight")
+          ->type_name("NAME,...")
+          ->allow_extra_args(false)
+          ->capture_default_str();
+  CLI::Option* const weight_option =
+      fit_command
+          ->add_option("--weight", request.weight, "column of weights, as one over the variance of the relative error")
+          ->type_name("NAME");
+  CLI::Option* const value_option =
+      fit_command
+          ->add_option("--value", request.values,
+                       "without an exact solution: columns of values, as norms or functionals of the solution")
+          ->type_name("NAME,...")
+          ->allow_extra_args(false)
+          ->excludes(error_option)
+          ->excludes(weight_option);
   fit_command
-      ->add_option("--error", request.errors,
-                   "columns of errors, each judged; all: every column of numbers but variable, count and weight")
+      ->add_option("--difference", request.differences,
+                   "columns of differences of successive levels, or their norms; empty for the finest level")
       ->type_name("NAME,...")
       ->allow_extra_args(false)
-      ->capture_default_str();
-  fit_command
-      ->add_option("--weight", request.weight, "column of weights, as one over the variance of the relative error")
-      ->type_name("NAME");
+      ->excludes(error_option)
+      ->excludes(weight_option)
+      ->excludes(value_option);
   fit_command
       ->add_option("--levels", request.levels, "levels to judge, as 3:8, 3: or :6; 1 is the coarsest, ends included")
       ->type_name("A:B");
@@ -381,9 +400,15 @@ int main(int argc, char** argv) {
       bench_request.command = command;
       status = bench(files, bench_request);
     } else if (*fit_command) {
-      const Fits fits = fit_table(request);
-      fmt::print("{}", json ? as_json(fits) : as_text(fits));
-      status = fits.passes() ? done : departs;
+      const auto print = [&](const auto& fits) {
+        fmt::print("{}", json ? as_json(fits) : as_text(fits));
+        status = fits.passes() ? done : departs;
+      };
+      if (request.values.empty() && request.differences.empty()) {
+        print(fit_table(request));
+      } else {
+        print(fit_values(request));
+      }
     } else if (*list_command) {
       print_list(what);
     } else {

@@ -249,9 +249,13 @@ double NumberTable::positive(std::size_t row, std::size_t column) const {
   return value;
 }
 
-std::vector<Printed> NumberTable::numbers(std::size_t column) const {
+std::vector<Printed> NumberTable::numbers(std::size_t column, std::optional<std::size_t> except) const {
   std::vector<PrintedNumber> printed;
   for (std::size_t row = 0; row < rows(); ++row) {
+    if (row == except) {
+      printed.push_back(*read_number("nan"));
+      continue;
+    }
     number(row, column);  // throws where there is none
     printed.push_back(*read_number(rows_[row].cells[column].text));
   }
@@ -259,6 +263,11 @@ std::vector<Printed> NumberTable::numbers(std::size_t column) const {
   std::vector<Printed> numbers;
   for (std::size_t row = 0; row < rows(); ++row) numbers.push_back({printed[row].value, halves[row]});
   return numbers;
+}
+
+bool NumberTable::blank(std::size_t row, std::size_t column) const {
+  const std::string& text = rows_[row].cells[column].text;
+  return text.empty() || text == "-";
 }
 
 std::optional<std::size_t> NumberTable::first_without_number(std::size_t column) const {

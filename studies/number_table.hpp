@@ -46,8 +46,11 @@ class NumberTable {
 
   /// A whole column with what its print leaves open. Trailing zeros count as digits; but where numbers differ in length
   /// and none ends in a zero, as %g and Python print them, zeros were dropped and each has as many digits as the
-  /// longest. Whole numbers without a point are exact. @throws InputError
-  std::vector<Printed> numbers(std::size_t column) const;
+  /// longest. Whole numbers without a point are exact. nan in row `except`. @throws InputError
+  std::vector<Printed> numbers(std::size_t column, std::optional<std::size_t> except = {}) const;
+
+  /// True if a cell is empty or a dash.
+  bool blank(std::size_t row, std::size_t column) const;
 
   /// The first row whose cell in this column is no number.
   std::optional<std::size_t> first_without_number(std::size_t column) const;

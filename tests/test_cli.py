@@ -761,9 +761,11 @@ class Readme(ProgramTest):
         study, = re.findall(r'```toml\n(\[study\]\nname = "first".*?)```', readme, re.S)
         shown = re.findall(r"```console\n\$ build/acstudy (.*?)\n(.*?)```", readme, re.S)
         self.assertEqual([command for command, _ in shown], ["explain first.toml", "run first.toml --out out",
-                                                          "fit errors.csv --order 1"])
+                                                          "fit errors.csv --order 1",
+                                                          "fit drag.csv --value drag --order 2"])
         self.write("first.toml", study)
-        self.write("errors.csv", *re.findall(r"```csv\n(.*?)```", readme, re.S))
+        for name, table in re.findall(r"This is\s+`(\w+\.csv)`:\n\n```csv\n(.*?)```", readme, re.S):
+            self.write(name, table)
         for command, output in shown:
             with self.subTest(command):
                 self.assertEqual(self.acstudy(*command.split()).stdout, output)
@@ -778,7 +780,7 @@ class Words(ProgramTest):
                                  (("run", "--help"), ("STUDY.toml", "--out", "reports/out", "--jobs", "--repeats", "--fresh")),
                                  (("check", "--help"), ("FILE.json", "exit 1")),
                                  (("fit", "--help"), ("TABLE.csv", "--variable", "--count", "--dimension", "--error", "--weight", "--levels",
-                                                      "--order", "--scale", "--floor", "--json")),
+                                                      "--order", "--scale", "--floor", "--value", "--difference", "--json")),
                                  (("explain", "--help"), ("STUDY.toml",)),
                                  (("list", "--help"), ("schemes", "kernels", "integrators", "scenes"))):
             done = self.acstudy(*arguments)

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "reports/corpus.hpp"
 #include "reports/coverage.hpp"
+#include "reports/value_corpus.hpp"
+#include "reports/value_coverage.hpp"
 #include "studies/kinds/kinds.hpp"
 
 namespace acstudy {
@@ -24,6 +26,29 @@ Finding corpus_finding(const CorpusEntry& entry) {
   finding.also_expected.assign(entry.right.begin() + 1, entry.right.end());
   finding.known = entry.options;
   for (const Level& level : entry.levels) finding.points.push_back({.variable = level.variable, .value = level.error});
+  return finding;
+}
+
+/// Whether the verdict on each sequence of values is right: a point of value 1 if so.
+Finding value_corpus_finding() {
+  Finding finding{.statement = "corpus",
+                  .claim = "the verdict on values without an exact solution is right",
+                  .subject = "values",
+                  .check = "verdict",
+                  .quantity = "1 if the verdict is right",
+                  .test = Test::bounds,
+                  .variable = "entry",
+                  .promised = Verdict::holds,
+                  .expected = Verdict::holds};
+  for (const ValueEntry& entry : value_corpus()) {
+    const Verdict verdict = judge_values(entry.values, entry.theory_order).verdict;
+    const bool right = std::find(entry.right.begin(), entry.right.end(), verdict) != entry.right.end();
+    finding.points.push_back({.variable = static_cast<double>(finding.points.size() + 1),
+                              .value = right ? 1.0 : 0.0,
+                              .lower = 1.0,
+                              .upper = 1.0,
+                              .label = fmt::format("{}: {}", entry.name, name_of(verdict))});
+  }
   return finding;
 }
 
@@ -55,6 +80,17 @@ std::vector<CoverageRow> of_class(const std::string& name, std::vector<CoverageR
   return rows;
 }
 
+/// Coverage on sequences of values, all together.
+Finding value_coverage_finding(const std::string& subject, const std::vector<ValueCoverageRow>& rows,
+                               std::size_t ValueCoverageRow::*covered) {
+  CoverageRow sum{"all", 0, 0, 0, 0.0};
+  for (const ValueCoverageRow& row : rows) {
+    sum.trials += row.trials;
+    sum.covered += row.*covered;
+  }
+  return coverage_finding(subject, fmt::format("{} sequences of values", sum.trials), {sum});
+}
+
 /// All rows as one, its `levels` being 0.
 CoverageRow together(const std::vector<CoverageRow>& rows) {
   CoverageRow sum{"all", 0, 0, 0, 0.0};
@@ -78,6 +114,11 @@ void read_corpus(const Table& root, Study& study) {
                                     return measured;
                                   }});
   }
+  study.measurements.push_back({value_corpus_finding().label(), [](const auto&) {
+                                  Finding finding = value_corpus_finding();
+                                  judge(finding);
+                                  return finding;
+                                }});
 }
 
 void read_coverage(const Table& root, Study& study) {
@@ -124,6 +165,24 @@ void read_coverage(const Table& root, Study& study) {
     Finding finding = coverage_finding("power law alone (control)", "all series", {together(all)});
     finding.expected = Verdict::violated;
     finding.remark = "An interval that takes no correction into account misses the order of most series that have one.";
+    return finding;
+  });
+  // These take a hundred times as long as errors do, and are fewer.
+  const std::size_t value_trials = (trials + 9) / 10;
+  measure("coverage: order of values", [=] {
+    return value_coverage_finding("order of values", value_coverage(value_trials, seed),
+                                  &ValueCoverageRow::order_covered);
+  });
+  measure("coverage: extrapolated value", [=] {
+    return value_coverage_finding("extrapolated value", value_coverage(value_trials, seed),
+                                  &ValueCoverageRow::limit_covered);
+  });
+  measure("coverage: extrapolated value of the law without correction (control)", [=] {
+    Finding finding =
+        value_coverage_finding("extrapolated value without correction (control)",
+                               value_coverage(value_trials, seed, fit_value_law), &ValueCoverageRow::limit_covered);
+    finding.expected = Verdict::violated;
+    finding.remark = "An interval that takes no correction into account misses the limit of most values that have one.";
     return finding;
   });
 }

@@ -136,7 +136,7 @@ void save(const std::filesystem::path& out, const std::vector<StudyResult>& stud
       }
       append_to_journal(journal, record);
       saved = {};
-    } catch (const StoreError&) {
+    } catch (const std::exception&) {
       // What cannot be saved is tried again a second later; the end of the run says why if that fails, too.
     }
     const std::lock_guard lock(mutex);

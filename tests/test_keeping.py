@@ -12,7 +12,7 @@ import unittest
 
 import h5py
 
-from tests.program import ACSTUDY, MODEL_II, STUDY, ProgramTest, edit
+from tests.program import ACSTUDY, MODEL_II, ROOT, STUDY, ProgramTest, edit
 from tests.test_cli import LEVELS, numbers
 
 MARK = b"\n\x89acstudy-rec-1\n"
@@ -20,13 +20,13 @@ MARK = b"\n\x89acstudy-rec-1\n"
 MANY = list(range(600, 660))
 LONG = edit(STUDY, ("4*h", "0.5"), (LEVELS, str(MANY)), ('source = "local"', 'source = "nonlocal"'))
 # Cases on the same particles, which run together and take seconds.
-TOGETHER = edit(STUDY, (LEVELS, "[1500]"), MODEL_II, ('"ssprk3"' if "ssprk3" in STUDY else '"forward-euler"', '"ssprk3"'))
+TOGETHER = edit(STUDY, (LEVELS, "[1500]"), MODEL_II, ('"forward-euler"', '"ssprk3"'))
 TOGETHER += "".join(f'\n[[path]]\nname = "{i}"\ndelta = {0.3 + i / 100}\nN = [1500]\nsource = "local"\n' for i in range(40))
-# Findings of several seconds in all, each of some hundredths.
-MEASURED = """\
-[study]
-name = "tiny"
-kind = "consistency"
+MAP = STUDY[:STUDY.index("[[path]]")].replace('title = "A tiny study"', 'kind = "map"') + """\
+[map]
+delta = [0.04, 0.16, 0.4, 0.6]
+N = [57, 80, 113, 160]
+sources = ["local", "nonlocal"]
 """
 
 
@@ -165,20 +165,46 @@ class Cases(Keeping):
 class Findings(Keeping):
     """Findings are kept like cases, whether their study has runs or none."""
 
-    def setUp(self):
-        super().setUp()
-        # Enough horizons for a minute.
-        self.text = """\
-[study]
-name = "tiny"
-kind = "digits"
-"""
+    def stored(self):
+        return numbers(self.folder / "out" / "tiny.h5")
 
     def test_those_of_runs_are_taken_again_if_nothing_changed(self):
-        text = edit(STUDY, ('title = "A tiny study"', 'kind = "pollution"'), (LEVELS, "[16, 32]"))
-        text = re.sub(r'\[\[path\]\].*', '[[path]]\nname = "a"\ndelta = "4*h"\nN = 48\nsource = "local"\n', text, flags=re.S)
-        done = self.run_study(text)
-        self.assertNotEqual(done.returncode, 2, done.stderr)
+        self.run_study(MAP)
+        first = self.stored()
+        # Whether a finding is measured or taken again, only the file can tell.
+        path = self.folder / "out" / "tiny.h5"
+        with h5py.File(path, "a") as file:
+            file["findings/0000"].attrs["remark"] = "taken again"
+        self.assert_counts(self.run_study(MAP), 0, 32)
+        changed = self.stored()
+        self.assertEqual([key for key in first if first[key] != changed[key]], ["findings/0000@remark"])
+        for text, arguments in ((MAP, ["--fresh"]), (edit(MAP, ("0.6]", "0.6]  # a remark")), []),
+                                (edit(MAP, ("[0.04, 0.16, 0.4, 0.6]", "[0.04, 0.16, 0.4, 0.6, 0.8]")), [])):
+            with self.subTest(text=text, arguments=arguments):
+                self.run_study(MAP)
+                with h5py.File(path, "a") as file:
+                    file["findings/0000"].attrs["remark"] = "taken again"
+                self.run_study(text, *arguments)
+                self.assertEqual(self.stored()["findings/0000@remark"], first["findings/0000@remark"])
+
+    def test_those_that_are_taken_survive_the_end(self):
+        text = (ROOT / "studies" / "consistency.toml").read_text(encoding="utf-8")
+        self.write("tiny.toml", edit(text, ('name = "consistency"', 'name = "tiny"')))
+        process = self.start()
+        self.await_journal(process, "findings", 3)
+        self.end(process, signal.SIGKILL)
+        values = {}
+        for image in images(self.journal):
+            with h5py.File(io.BytesIO(image), "r") as file:
+                values |= {name: finding["value"][()].tobytes() for name, finding in file["findings"].items()}
+        self.assertGreaterEqual(len(values), 3)
+        process = self.start()
+        time.sleep(0.3)
+        self.end(process, signal.SIGINT)
+        self.assertEqual(process.returncode, 130)
+        with h5py.File(self.folder / "out" / "tiny.h5", "r") as file:
+            for name, value in values.items():
+                self.assertEqual(file["findings"][name]["value"][()].tobytes(), value)
 
 
 class OtherStudies(ProgramTest):

@@ -16,8 +16,8 @@ from tests.program import ACSTUDY, MODEL_II, ROOT, STUDY, ProgramTest, edit
 from tests.test_cli import LEVELS, numbers
 
 MARK = b"\n\x89acstudy-rec-1\n"
-# Half a minute of cases of some tenths of a second, by themselves and together; most are never run here.
-MANY = list(range(600, 660))
+# Cases of some hundredths of a second, minutes of them; most are never run here.
+MANY = list(range(1000, 1400))
 LONG = edit(STUDY, ("4*h", "0.5"), (LEVELS, str(MANY)), ('source = "local"', 'source = "nonlocal"'))
 # Cases on the same particles, which run together and take seconds.
 TOGETHER = edit(STUDY, (LEVELS, "[1500]"), MODEL_II, ('"forward-euler"', '"ssprk3"'))

@@ -160,6 +160,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   GrowthWatch growth(u.values());
   const double solution_at_first = max_norm({u.values().begin(), u.values().end()});
   double t = 0.0;
+  bool interrupted = false;
 
   BoundWatch watch;
   const auto keep_going = [&](std::int64_t n, TimeStep step) {
@@ -171,7 +172,9 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
       scene.u(motion.at(t), t, exact);
       return max_norm(exact);
     };
-    return growth.makes_sense(n, t, u.values(), exact_size) && !stop.load(std::memory_order_relaxed);
+    const bool goes_on = growth.makes_sense(n, t, u.values(), exact_size);
+    interrupted = goes_on && t < scene.T() && stop.load(std::memory_order_relaxed);
+    return goes_on && !interrupted;
   };
 
   const auto start = std::chrono::steady_clock::now();
@@ -190,7 +193,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   }
   result.against_bound = watch.result();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (stop.load(std::memory_order_relaxed)) return result;
+  if (interrupted) return result;
 
   conclude(result, c, growth, u.values(), t, solution_at_first, [&](double time) { return motion.at(time); });
   result.work = scheme.work();

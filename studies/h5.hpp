@@ -68,6 +68,15 @@ inline std::vector<char> image(hid_t file) {
   return bytes;
 }
 
+/// The file that such bytes are of.
+inline Handle open_image(std::span<const char> bytes) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file access properties");
+  check(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "choose the memory driver");
+  // HDF5 makes a copy; that it does not take the bytes as constant is an oversight of its interface.
+  check(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), "take a file in memory");
+  return {H5Fopen("image", H5F_ACC_RDONLY, access), H5Fclose, "open a file in memory"};
+}
+
 inline Handle create_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group " + name};
 }
@@ -102,10 +111,11 @@ void write_number(hid_t object, const std::string& name, T value) {
   check(H5Awrite(attribute, native<T>(), &value), "write attribute " + name);
 }
 
-inline double read_number(hid_t object, const std::string& name) {
+template <class T = double>
+T read_number(hid_t object, const std::string& name) {
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
-  double value = 0.0;
-  check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read attribute " + name);
+  T value{};
+  check(H5Aread(attribute, native<T>(), &value), "read attribute " + name);
   return value;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "studies/advance.hpp"
@@ -41,10 +42,13 @@ CaseResult run_readable(const Case& c, const std::atomic<bool>& stop) {
   return run_once<MovingParticles>(c, stop);
 }
 
-std::vector<CaseResult> run_together(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop) {
+std::vector<CaseResult> run_together(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop,
+                                     double most_seconds) {
   std::string failure;
   try {
-    if (cases.size() > 1 || runs_in_vector_form(*cases.front())) return run_ensemble(cases, threads, stop);
+    if (cases.size() > 1 || runs_in_vector_form(*cases.front())) {
+      return run_ensemble(cases, threads, stop, most_seconds);
+    }
     return {run_readable(*cases.front(), stop)};
   } catch (const std::domain_error& error) {
     failure = error.what();
@@ -55,7 +59,7 @@ std::vector<CaseResult> run_together(std::span<const Case* const> cases, int thr
   // One of them failed; it must not take the others along.
   std::vector<CaseResult> results;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    results.push_back(run_together(cases.subspan(i, 1), threads, stop).front());
+    results.push_back(run_together(cases.subspan(i, 1), threads, stop, most_seconds).front());
   }
   return results;
 }
@@ -63,17 +67,23 @@ std::vector<CaseResult> run_together(std::span<const Case* const> cases, int thr
 }  // namespace
 
 std::vector<CaseResult> run_cases(std::span<const Case* const> cases, const std::atomic<bool>& stop,
-                                  std::size_t repeats, int threads) {
+                                  std::size_t repeats, int threads, double most_seconds) {
+  std::vector<CaseResult> results(cases.size());
   std::vector<std::vector<double>> seconds(cases.size());
-  std::vector<CaseResult> results;
-  for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-    results = run_together(cases, threads, stop);
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      if (!results[i].completed) return results;
-      seconds[i].push_back(results[i].seconds);
+  std::vector<std::size_t> which(cases.size());
+  std::iota(which.begin(), which.end(), std::size_t{0});
+  for (std::size_t repeat = 0; repeat < repeats && !which.empty(); ++repeat) {
+    std::vector<const Case*> these;
+    for (const std::size_t i : which) these.push_back(cases[i]);
+    std::vector<CaseResult> once = run_together(these, threads, stop, most_seconds);
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      results[which[k]] = std::move(once[k]);
+      seconds[which[k]].push_back(results[which[k]].seconds);
     }
+    // A case that is not run to its end lacks a repeat and counts as not run.
+    std::erase_if(which, [&](std::size_t i) { return !results[i].completed; });
   }
-  for (std::size_t i = 0; i < results.size(); ++i) {
+  for (const std::size_t i : which) {
     std::sort(seconds[i].begin(), seconds[i].end());
     results[i].repeats = static_cast<std::int64_t>(repeats);
     results[i].seconds = 0.5 * (seconds[i][(repeats - 1) / 2] + seconds[i][repeats / 2]);

@@ -34,7 +34,7 @@ struct StepsAgainstBound {
 };
 
 struct CaseResult {
-  bool completed = false;  ///< false: interrupted, nothing else is meaningful
+  bool completed = false;  ///< false: interrupted or put off, nothing else is meaningful
   std::string blow_up;     ///< how the solution left all bounds, if it did; the errors are then NaN
   std::string failure;     ///< why there is no solution for another reason, if so; the errors are then NaN
   double error_linf = 0.0;
@@ -71,7 +71,9 @@ struct CaseResult {
 CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t repeats = 1, int threads = 1);
 
 /// The same for cases of one `ensemble_key`, together.
+/// @param most_seconds  where all together would take much longer, some are put off: their `completed` is false
 std::vector<CaseResult> run_cases(std::span<const Case* const> cases, const std::atomic<bool>& stop,
-                                  std::size_t repeats = 1, int threads = 1);
+                                  std::size_t repeats = 1, int threads = 1,
+                                  double most_seconds = std::numeric_limits<double>::infinity());
 
 }  // namespace acstudy

@@ -1,113 +1,35 @@
 #include "studies/runner.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
+#include <condition_variable>
+#include <deque>
 #include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <system_error>
 #include <thread>
 #include <unordered_map>
 
-#include "studies/ensemble/ensemble.hpp"
+#include "studies/batches.hpp"
+#include "studies/input_error.hpp"
+#include "studies/journal.hpp"
+#include "studies/progress.hpp"
 
 namespace acstudy {
 
 namespace {
 
-/// One distinct case and every place in the studies that wants its result.
-struct Job {
-  const Case* c;
-  struct Place {
-    std::size_t study, series, level;
-  };
-  std::vector<Place> wanted_by;
+/// Where a result of a case is wanted.
+struct Place {
+  std::size_t study, series, level;
 };
 
-/// Jobs that one call of `run_cases` does: cases on the same particles together, or one by itself.
-struct Batch {
-  std::vector<std::size_t> jobs;
-  double work = 0.0;
-};
-
-/// Jobs that share their sweeps, by what they share: particles, then sweeps.
-using Sweeps = std::map<std::pair<std::string, std::string>, Batch>;
-
-/// Puts sweeps on the same particles together, up to `most` work a batch. Heaviest batch first.
-std::vector<Batch> batches_up_to(double most, const Sweeps& sweeps) {
-  std::vector<Batch> batches;
-  const std::string* particles = nullptr;
-  for (const auto& [key, sweep] : sweeps) {
-    const bool joins = particles != nullptr && *particles == key.first && batches.back().work + sweep.work <= most;
-    if (!joins) batches.emplace_back();
-    batches.back().jobs.insert(batches.back().jobs.end(), sweep.jobs.begin(), sweep.jobs.end());
-    batches.back().work += sweep.work;
-    particles = &key.first;
-  }
-  std::stable_sort(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) { return a.work > b.work; });
-  return batches;
-}
-
-/// The most work that falls to a worker, if whoever is done takes the next batch.
-double longest_share(const std::vector<Batch>& batches, int workers) {
-  std::vector<double> shares(static_cast<std::size_t>(workers));
-  for (const Batch& batch : batches) *std::min_element(shares.begin(), shares.end()) += batch.work;
-  return *std::max_element(shares.begin(), shares.end());
-}
-
-/// Batches as large as they can be, so that as little as possible is computed twice, and small enough for the workers
-/// to end at about the same time.
-std::vector<Batch> batches_of(const std::vector<Job>& jobs, int workers) {
-  Sweeps sweeps;
-  double total = 0.0;
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const Case& c = *jobs[i].c;
-    const bool vector = runs_in_vector_form(c);
-    Batch& batch = sweeps[vector ? std::pair(ensemble_key(c), sweep_key(c)) : std::pair(c.key(), std::string())];
-    batch.jobs.push_back(i);
-    batch.work += c.estimated_work();
-    total += c.estimated_work();
-  }
-  for (const double parts : {1.0, 2.0}) {
-    auto batches = batches_up_to(total / (parts * workers), sweeps);
-    if (longest_share(batches, workers) <= 1.03 * total / workers) return batches;
-  }
-  return batches_up_to(total / (4.0 * workers), sweeps);
-}
-
-/// A line on the terminal that is rewritten; silent where stderr is none.
-class Progress {
- public:
-  Progress(std::size_t jobs, double work) : jobs_(jobs), work_(work), on_terminal_(isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-
-  void done(double work) {
-    ++finished_;
-    finished_work_ += work;
-    if (!on_terminal_) return;
-    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const double left = finished_work_ > 0.0 ? elapsed * (work_ - finished_work_) / finished_work_ : 0.0;
-    // fputs and not fmt::print, which throws: a terminal that has gone away must not end the run.
-    const std::string line = fmt::format("\r\033[K{} of {} cases, {:.0f} s, about {:.0f} s left", finished_, jobs_,
-                                         elapsed, std::ceil(left));
-    std::fputs(line.c_str(), stderr);
-    std::fflush(stderr);
-    shown_ = true;
-  }
-
- private:
-  std::size_t jobs_, finished_ = 0;
-  double work_, finished_work_ = 0.0;
-  bool on_terminal_, shown_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+/// How long cases that are run together may take, in seconds, if some of them can as well be run later.
+constexpr double most_seconds = 2.0;
 
 /// What the studies' files hold: the cases of all of them together, the findings and the origin of each.
 struct Stores {
@@ -115,38 +37,51 @@ struct Stores {
   std::vector<StoredCases> each;
 };
 
+/// Throws if results would be lost that belong to another study file. A file that was moved or copied as it is does as
+/// well as the one that it comes from.
+void require_own_results(const Study& study, const StoredCases& stored, const std::filesystem::path& out) {
+  if (stored.study_file.empty() || stored.study_file == absolute_path(study.file) || stored.study_text == study.text) {
+    return;
+  }
+  const std::filesystem::path result = out / (study.name + ".h5");
+  throw InputError(
+      fmt::format("{}: study \"{}\" would replace the results of {}, a study of the same name, in {}; name another "
+                  "folder with --out, give it another name, or remove these results",
+                  study.file, study.name, stored.study_file, result.string()));
+}
+
 Stores load_stores(const std::vector<Study>& studies, const RunOptions& options) {
   Stores stores;
   for (const Study& study : studies) {
     StoredCases stored;
     try {
       stored = load_cases(options.out / (study.name + ".h5"));
+    } catch (const StoreLocked&) {
+      throw;
     } catch (const StoreError&) {
       if (!options.fresh) throw;
     }
+    require_own_results(study, stored, options.out);
     stores.cases.merge(stored.cases);
     stores.each.push_back(std::move(stored));
   }
   return stores;
 }
 
-/// Calls `work(i)` for i = 0 .. count-1 from up to `jobs` threads, until one throws or `stop`; what is thrown comes
-/// back.
+/// Calls `work()` from so many threads, again and again until it returns false or throws in one of them; what is
+/// thrown comes back. Where there is nothing to do for now, but may be later, `work` waits.
 template <class Work>
-std::exception_ptr in_parallel(std::size_t count, int jobs, const std::atomic<bool>& stop, Work&& work) {
+std::exception_ptr in_parallel(std::size_t count, Work&& work) {
   std::mutex mutex;
-  std::size_t next = 0;
   std::exception_ptr failure;
   const auto worker = [&] {
     for (;;) {
-      std::size_t i = 0;
       {
         const std::lock_guard lock(mutex);
-        if (next == count || stop || failure) return;
-        i = next++;
+        if (failure) return;
       }
       try {
-        work(i);
+        if (!work()) return;
       } catch (...) {
         const std::lock_guard lock(mutex);
         failure = std::current_exception();
@@ -155,7 +90,7 @@ std::exception_ptr in_parallel(std::size_t count, int jobs, const std::atomic<bo
   };
   std::vector<std::thread> threads;
   try {
-    for (std::size_t t = 1; t < std::min<std::size_t>(jobs, count); ++t) threads.emplace_back(worker);
+    for (std::size_t t = 1; t < count; ++t) threads.emplace_back(worker);
   } catch (const std::system_error&) {
     // The machine gives no more threads; those that run share the work.
   }
@@ -185,13 +120,44 @@ Finding take(const Measurement& measurement, const std::vector<SeriesResult>& re
   return finding;
 }
 
+/// Appends what is not saved yet to the journals. A disk that is full now may not be later, and the run goes on.
+void save(const std::filesystem::path& out, const std::vector<StudyResult>& studies, std::vector<Finished>& unsaved,
+          const std::vector<bool>& finished, std::mutex& mutex) {
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    const std::filesystem::path journal = journal_path(out, studies[s].study->name);
+    Finished saved;
+    try {
+      std::vector<char> record;
+      {
+        const std::lock_guard lock(mutex);
+        if (unsaved[s].empty()) continue;
+        record = journal_record(studies[s], unsaved[s]);
+        std::swap(saved, unsaved[s]);
+      }
+      append_to_journal(journal, record);
+      saved = {};
+    } catch (const std::exception&) {
+      // What cannot be saved is tried again a second later; the end of the run says why if that fails, too.
+    }
+    const std::lock_guard lock(mutex);
+    if (finished[s]) {
+      std::error_code ignored;
+      std::filesystem::remove(journal, ignored);
+    } else {
+      unsaved[s].cases.insert(unsaved[s].cases.end(), saved.cases.begin(), saved.cases.end());
+      unsaved[s].findings.insert(unsaved[s].findings.end(), saved.findings.begin(), saved.findings.end());
+    }
+  }
+}
+
 }  // namespace
 
 RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop) {
   RunResult run;
   const Stores stores = load_stores(studies, options);
-  std::vector<Job> jobs;
-  std::unordered_map<std::string, std::size_t> job_of;
+  std::vector<const Case*> cases;             // each distinct one that is to be run
+  std::vector<std::vector<Place>> wanted_by;  // where each of them is wanted
+  std::unordered_map<std::string, std::size_t> index_of;
   std::vector<std::size_t> open_cases;
   std::vector<Provenance> provenance;
   std::vector<std::pair<std::size_t, std::size_t>> measurements;  // study, number within it
@@ -212,15 +178,18 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
             continue;
           }
         }
-        const auto [entry, is_new] = job_of.try_emplace(key, jobs.size());
-        if (is_new) jobs.push_back({&series.cases[i], {}});
-        jobs[entry->second].wanted_by.push_back({s, run.studies.back().series.size() - 1, i});
+        const auto [entry, is_new] = index_of.try_emplace(key, cases.size());
+        if (is_new) {
+          cases.push_back(&series.cases[i]);
+          wanted_by.emplace_back();
+        }
+        wanted_by[entry->second].push_back({s, run.studies.back().series.size() - 1, i});
         ++open_cases[s];
       }
     }
     const StoredCases& stored = stores.each[s];
     run.studies[s].findings.resize(study.measurements.size());
-    const bool reusable = study.series.empty() && stored.findings_key == findings_key(study) && !options.fresh;
+    const bool reusable = open_cases[s] == 0 && stored.findings_key == findings_key(study) && !options.fresh;
     bool measured = true;
     for (std::size_t i = 0; i < study.measurements.size(); ++i) {
       if (const auto found = stored.findings.find(i); reusable && found != stored.findings.end()) {
@@ -234,13 +203,14 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
     const bool untouched = open_cases[s] == 0 && measured && !stored.provenance.empty();
     provenance.push_back(untouched ? stored.provenance : collect_provenance(options.jobs, options.command));
   }
-  const std::vector<Batch> batches = batches_of(jobs, options.jobs);
 
+  std::vector<Finished> unsaved(studies.size());
   std::vector<bool> finished(studies.size());
   const auto finish = [&](std::size_t s) {
     for (SeriesResult& series : run.studies[s].series) series.judgement = judge_series(*series.series, series.results);
     write_results(options.out, run.studies[s], provenance[s]);
     finished[s] = true;
+    unsaved[s] = {};
   };
   const auto finish_if_complete = [&](std::size_t s) {
     const auto& findings = run.studies[s].findings;
@@ -249,51 +219,106 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   for (std::size_t s = 0; s < studies.size(); ++s) finish_if_complete(s);
 
   double work = 0.0;
-  for (const Job& job : jobs) work += job.c->estimated_work();
-  Progress progress(jobs.size(), work);
-  std::mutex mutex;
-  const auto run_batch = [&](const Batch& batch, int threads) {
-    std::vector<const Case*> cases;
-    for (const std::size_t i : batch.jobs) cases.push_back(jobs[i].c);
-    const std::vector<CaseResult> results = run_cases(cases, stop, options.repeats, threads);
-    const std::lock_guard lock(mutex);
+  for (const Case* c : cases) work += c->estimated_work();
+  std::mutex mutex;  // for all that follows, and for HDF5
+  Progress progress(cases.size(), work, measurements.size());
+  std::optional<EverySecond> every_second([&] {
+    progress.show();
+    save(options.out, run.studies, unsaved, finished, mutex);
+  });
+
+  std::deque<Batch> open_batches;  // heaviest first
+  for (Batch& batch : batches_of(cases, options.jobs)) open_batches.push_back(std::move(batch));
+  int running = 0;
+  std::condition_variable changed;
+  // Takes results of a batch; what was put off of it is open again, in parts of what was done.
+  const auto take_results = [&](const Batch& batch, std::vector<CaseResult> results) {
+    double done = 0.0;
+    std::vector<std::size_t> put_off;
     for (std::size_t k = 0; k < results.size(); ++k) {
-      if (!results[k].completed) continue;
-      const Job& job = jobs[batch.jobs[k]];
-      ++run.computed;
-      progress.done(job.c->estimated_work());
-      for (const auto& place : job.wanted_by) {
-        run.studies[place.study].series[place.series].results[place.level] = results[k];
-        --open_cases[place.study];
-        finish_if_complete(place.study);
+      const std::size_t i = batch.cases[k];
+      if (!results[k].completed) {
+        put_off.push_back(i);
+        continue;
       }
+      ++run.computed;
+      done += cases[i]->estimated_work();
+      progress.case_done(cases[i]->estimated_work());
+      std::set<std::size_t> wanting;
+      for (const Place& place : wanted_by[i]) {
+        CaseResult& result = run.studies[place.study].series[place.series].results[place.level];
+        result = results[k];
+        if (wanting.insert(place.study).second) unsaved[place.study].cases.emplace_back(cases[i], &result);
+        --open_cases[place.study];
+      }
+      for (const std::size_t s : wanting) finish_if_complete(s);
     }
+    if (stop) return;
+    std::vector<Batch> parts = batches_up_to(done, cases, put_off);
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part) open_batches.push_front(std::move(*part));
   };
+  const auto run_batch = [&](std::unique_lock<std::mutex>& lock, int threads) {
+    const Batch batch = std::move(open_batches.front());
+    open_batches.pop_front();
+    ++running;
+    lock.unlock();
+    std::vector<const Case*> these;
+    for (const std::size_t i : batch.cases) these.push_back(cases[i]);
+    std::vector<CaseResult> results;
+    std::exception_ptr failure;
+    try {
+      results = run_cases(these, stop, options.repeats, threads, most_seconds);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    --running;
+    changed.notify_all();
+    if (failure) std::rethrow_exception(failure);
+    take_results(batch, std::move(results));
+  };
+
   // What alone takes longer than all the rest is shared out to all threads, one batch after the other.
-  std::size_t shared = 0;
   std::exception_ptr failure;
   try {
-    for (double rest = work; options.jobs > 1 && shared < batches.size() && !stop; ++shared) {
-      rest -= batches[shared].work;
-      if (batches[shared].work * (options.jobs - 1) <= rest) break;
-      run_batch(batches[shared], options.jobs);
+    std::unique_lock lock(mutex);
+    while (options.jobs > 1 && !open_batches.empty() && !stop) {
+      double rest = 0.0;
+      for (const Batch& batch : open_batches) rest += batch.work;
+      const double longest = open_batches.front().work;
+      if (longest * (options.jobs - 1) <= rest - longest) break;
+      run_batch(lock, options.jobs);
     }
   } catch (...) {
     failure = std::current_exception();
   }
   if (!failure) {
-    failure = in_parallel(batches.size() - shared, options.jobs, stop,
-                          [&](std::size_t i) { run_batch(batches[shared + i], 1); });
-  }
-  if (!failure && !stop) {
-    failure = in_parallel(measurements.size(), options.jobs, stop, [&](std::size_t i) {
-      const auto [s, m] = measurements[i];
-      const Finding finding = take(studies[s].measurements[m], run.studies[s].series);
-      const std::lock_guard lock(mutex);
-      run.studies[s].findings[m] = finding;
-      finish_if_complete(s);
+    failure = in_parallel(std::min<std::size_t>(options.jobs, cases.size()), [&] {
+      std::unique_lock lock(mutex);
+      // A batch that runs may put cases off.
+      changed.wait(lock, [&] { return !open_batches.empty() || running == 0; });
+      if (open_batches.empty() || stop) return false;
+      run_batch(lock, 1);
+      return true;
     });
   }
+  if (!failure && !stop) {
+    std::size_t next = 0;
+    failure = in_parallel(std::min<std::size_t>(options.jobs, measurements.size()), [&] {
+      std::unique_lock lock(mutex);
+      if (next == measurements.size() || stop) return false;
+      const auto [s, m] = measurements[next++];
+      lock.unlock();
+      const Finding finding = take(studies[s].measurements[m], run.studies[s].series);
+      lock.lock();
+      run.studies[s].findings[m] = finding;
+      unsaved[s].findings.push_back(m);
+      progress.finding_done();
+      finish_if_complete(s);
+      return true;
+    });
+  }
+  every_second.reset();
 
   // What is done is stored before anything is said of what went wrong.
   run.interrupted = stop;

@@ -29,11 +29,13 @@ struct RunResult {
 };
 
 /// Runs every case that is not stored yet, each once even if several studies ask for it, longest first; writes the
-/// results of a study as soon as it is complete, and those of incomplete ones when interrupted.
+/// results of a study as soon as it is complete, and those of incomplete ones when interrupted. Until then what is
+/// finished of a study goes to its journal once a second, and a process that is killed loses no more than that.
 ///
 /// Then takes the measurements of studies whose cases are all there. A case and a measurement run in one thread, so
 /// numbers do not depend on `jobs`.
 /// @param stop  once true, running cases end at their next time step
+/// @throws InputError, before anything is run or written, if results of another study file would be replaced
 /// @throws StoreError
 RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop);
 

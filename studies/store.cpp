@@ -1,16 +1,24 @@
 #include "studies/store.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <thread>
 
 #include "build_info.hpp"
+#include "studies/checksum.hpp"
 #include "studies/h5.hpp"
+#include "studies/journal.hpp"
 #include "studies/result_json.hpp"
+#include "studies/stored_parts.hpp"
 
 namespace acstudy {
 
@@ -65,6 +73,24 @@ struct Columns {
   std::vector<std::int64_t>& of(const std::string& name, std::int64_t) { return count[name]; }
 };
 
+void write_texts_and_fields(hid_t group, const std::string& key, const CaseResult& r) {
+  h5::write_text(group, "key", key);
+  h5::write_text(group, "blow_up", r.blow_up);
+  h5::write_text(group, "failure", r.failure);
+  h5::write_column<double>(group, "x", r.x);
+  h5::write_column<double>(group, "u", r.u);
+  h5::write_column<double>(group, "u_exact", r.u_exact);
+}
+
+void read_texts_and_fields(hid_t group, CaseResult& r) {
+  r.completed = true;
+  r.blow_up = h5::read_text(group, "blow_up");
+  r.failure = h5::read_text(group, "failure");
+  r.x = h5::read_column<double>(group, "x");
+  r.u = h5::read_column<double>(group, "u");
+  r.u_exact = h5::read_column<double>(group, "u_exact");
+}
+
 void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
@@ -115,14 +141,8 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
 
   const h5::Handle cases = h5::create_group(group, "cases");
   for (const std::size_t i : indices) {
-    const CaseResult& r = result.results[i];
     const h5::Handle one = h5::create_group(cases, std::to_string(series.cases[i].N));
-    h5::write_text(one, "key", storage_key(series.cases[i]));
-    h5::write_text(one, "blow_up", r.blow_up);
-    h5::write_text(one, "failure", r.failure);
-    h5::write_column<double>(one, "x", r.x);
-    h5::write_column<double>(one, "u", r.u);
-    h5::write_column<double>(one, "u_exact", r.u_exact);
+    write_texts_and_fields(one, storage_key(series.cases[i]), result.results[i]);
   }
 }
 
@@ -171,6 +191,21 @@ void write_surface(hid_t group, const SurfaceFit& fit) {
   write("sharpness", fit.sharpness);
   write("bic_h", fit.bic_h);
   write("bic_delta", fit.bic_delta);
+}
+
+}  // namespace
+
+void write_case(hid_t parent, const std::string& group_name, const std::string& key, const CaseResult& result) {
+  const h5::Handle group = h5::create_group(parent, group_name);
+  write_texts_and_fields(group, key, result);
+  for_each_column(result, [&](const char* name, auto value) { h5::write_number(group, name, value); });
+}
+
+CaseResult read_case(hid_t group) {
+  CaseResult result;
+  read_texts_and_fields(group, result);
+  for_each_column(result, [&]<class T>(const char* name, T& value) { value = h5::read_number<T>(group, name); });
+  return result;
 }
 
 void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
@@ -238,6 +273,8 @@ Finding read_finding(hid_t group) {
   return finding;
 }
 
+namespace {
+
 /// The HDF5 file as bytes.
 std::vector<char> h5_image(const StudyResult& result, const Provenance& provenance) {
   const Study& study = *result.study;
@@ -247,6 +284,7 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
   h5::write_text(root, "title", study.title);
   h5::write_text(root, "kind", study.kind);
   h5::write_text(root, "study_text", study.text);
+  h5::write_text(root, "study_file", absolute_path(study.file));
   const h5::Handle origin = h5::create_group(root, "provenance");
   for (const auto& [name, value] : provenance) h5::write_text(origin, name, value);
   if (study.scene) {
@@ -270,6 +308,76 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
     if (result.findings[i]) write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
   }
   return h5::image(root);
+}
+
+/// Another process holds a lock that keeps HDF5 from reading the file.
+bool locked(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_locked = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return is_locked;
+}
+
+/// Opens a file for reading. Waits some two seconds for one that is locked.
+h5::Handle open_when_unlocked(const fs::path& file) {
+  const auto try_it = [&] { return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); };
+  hid_t id = try_it();
+  for (int tries = 0; id < 0 && locked(file); ++tries) {
+    if (tries == 8) {
+      throw StoreLocked(fmt::format(
+          "{}: locked: another program holds it open for writing; close it there, or name another folder with --out",
+          file.string()));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    id = try_it();
+  }
+  if (id < 0) id = try_it();  // it may have been unlocked in between
+  return {id, H5Fclose, "open it"};
+}
+
+/// Adds the content of the HDF5 file.
+void read_results(const fs::path& file, StoredCases& stored) {
+  const h5::Handle root = open_when_unlocked(file);
+  if (h5::read_text(root, "format") != format) throw StoreError("its format is not " + std::string(format));
+  if (H5Aexists(root, "study_file") > 0) {
+    stored.study_file = h5::read_text(root, "study_file");
+    stored.study_text = h5::read_text(root, "study_text");
+  }
+  const h5::Handle origin = h5::open_group(root, "provenance");
+  // Nothing that other sources have computed is used again, and they may have stored it in another way.
+  if (h5::read_text(origin, "numerics") != build_info::numerics) return;
+  for (const auto& [name, value] : collect_provenance(0, ""))
+    stored.provenance.emplace_back(name, h5::read_text(origin, name));
+  const h5::Handle all = h5::open_group(root, "series");
+  for (const std::string& name : h5::group_names(all)) {
+    const h5::Handle group = h5::open_group(all, name), cases = h5::open_group(group, "cases");
+    const auto N = h5::read_column<std::int64_t>(group, "N");
+    std::vector<CaseResult> results(N.size());
+    Columns columns;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      for_each_column(results[i], [&]<class T>(const char* column, T& value) {
+        // Files of older versions lack some. Their cases have other keys, so nothing is missed.
+        if (H5Lexists(group, column, H5P_DEFAULT) <= 0) return;
+        std::vector<T>& values = columns.of(column, T{});
+        if (values.empty()) values = h5::read_column<T>(group, column);
+        value = values.at(i);
+      });
+    }
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
+      read_texts_and_fields(one, results[i]);
+      stored.cases[h5::read_text(one, "key")] = std::move(results[i]);
+    }
+  }
+  // Findings of other sources are not used again, so they need not be readable; older files have none.
+  if (H5Lexists(root, "findings", H5P_DEFAULT) <= 0) return;
+  stored.findings_key = h5::read_text(root, "findings_key");
+  if (!of_these_measurements(stored.findings_key)) return;
+  const h5::Handle findings = h5::open_group(root, "findings");
+  for (const std::string& name : h5::group_names(findings)) {
+    stored.findings.emplace(std::stoul(name), read_finding(h5::open_group(findings, name)));
+  }
 }
 
 }  // namespace
@@ -363,61 +471,43 @@ void require_bounded(Judgement& judgement, double error, double solution) {
   judgement.reason = fmt::format("an error is {:.3g}, that of a solution of {:.3g} at most", error, solution);
 }
 
-std::string findings_key(const Study& study) { return study.text + "|measurements=" + measurements_fingerprint(); }
+std::string findings_key(const Study& study) {
+  // A study's runs and measurements can come from other study files that it names.
+  std::uint64_t runs = checksum({});
+  for (const Series& series : study.series) {
+    runs = checksum(series.label() + series.theory.statement + std::string(name_of(series.expected)), runs);
+    for (const Case& c : series.cases) runs = checksum(storage_key(c), runs);
+  }
+  for (const Measurement& measurement : study.measurements) runs = checksum(measurement.name, runs);
+  return fmt::format("runs={:016x}|{}|measurements={}", runs, study.text, measurements_fingerprint());
+}
+
+bool of_these_measurements(const std::string& findings_key) {
+  return findings_key.ends_with("|measurements=" + measurements_fingerprint());
+}
+
+std::string absolute_path(const std::string& file) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(file, error);
+  return error ? file : fs::absolute(path, error).string();
+}
 
 std::string storage_key(const Case& c) { return c.key() + "|numerics=" + numerics_fingerprint(); }
 
 StoredCases load_cases(const fs::path& file) {
-  StoredCases stored;
-  if (!fs::exists(file)) return stored;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  try {
-    const h5::Handle root(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open it");
-    if (h5::read_text(root, "format") != format) throw StoreError("its format is not " + std::string(format));
-    const h5::Handle origin = h5::open_group(root, "provenance");
-    // Nothing that other sources have computed is used again, and they may have stored it in another way.
-    if (h5::read_text(origin, "numerics") != build_info::numerics) return stored;
-    for (const auto& [name, value] : collect_provenance(0, ""))
-      stored.provenance.emplace_back(name, h5::read_text(origin, name));
-    const h5::Handle all = h5::open_group(root, "series");
-    for (const std::string& name : h5::group_names(all)) {
-      const h5::Handle group = h5::open_group(all, name), cases = h5::open_group(group, "cases");
-      const auto N = h5::read_column<std::int64_t>(group, "N");
-      std::vector<CaseResult> results(N.size());
-      Columns columns;
-      for (std::size_t i = 0; i < results.size(); ++i) {
-        for_each_column(results[i], [&]<class T>(const char* column, T& value) {
-          // Files of older versions lack some. Their cases have other keys, so nothing is missed.
-          if (H5Lexists(group, column, H5P_DEFAULT) <= 0) return;
-          std::vector<T>& values = columns.of(column, T{});
-          if (values.empty()) values = h5::read_column<T>(group, column);
-          value = values.at(i);
-        });
-      }
-      for (std::size_t i = 0; i < results.size(); ++i) {
-        const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
-        CaseResult& result = results[i];
-        result.completed = true;
-        result.blow_up = h5::read_text(one, "blow_up");
-        result.failure = h5::read_text(one, "failure");
-        result.x = h5::read_column<double>(one, "x");
-        result.u = h5::read_column<double>(one, "u");
-        result.u_exact = h5::read_column<double>(one, "u_exact");
-        stored.cases[h5::read_text(one, "key")] = std::move(result);
-      }
+  StoredCases stored;
+  if (fs::exists(file)) {
+    try {
+      read_results(file, stored);
+    } catch (const StoreLocked&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw StoreError(
+          fmt::format("{}: not a readable result file ({}); remove it, or use --fresh", file.string(), error.what()));
     }
-    // Findings of other sources are not used again, so they need not be readable; older files have none.
-    if (H5Lexists(root, "findings", H5P_DEFAULT) <= 0) return stored;
-    stored.findings_key = h5::read_text(root, "findings_key");
-    if (!stored.findings_key.ends_with(measurements_fingerprint())) return stored;
-    const h5::Handle findings = h5::open_group(root, "findings");
-    for (const std::string& name : h5::group_names(findings)) {
-      stored.findings.emplace(std::stoul(name), read_finding(h5::open_group(findings, name)));
-    }
-  } catch (const std::exception& error) {
-    throw StoreError(
-        fmt::format("{}: not a readable result file ({}); remove it, or use --fresh", file.string(), error.what()));
   }
+  read_journal(journal_path(file.parent_path(), file.stem().string()), stored);
   return stored;
 }
 
@@ -425,6 +515,8 @@ void write_results(const fs::path& out, const StudyResult& result, const Provena
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   replace_atomically(out / (result.study->name + ".h5"), h5_image(result, provenance));
   replace_atomically(out / (result.study->name + ".json"), json_text(result, provenance));
+  std::error_code ignored;
+  fs::remove(journal_path(out, result.study->name), ignored);
 }
 
 }  // namespace acstudy

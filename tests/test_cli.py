@@ -336,6 +336,13 @@ class Interruption(ProgramTest):
     MANY = str(list(range(300, 350)))
     LONG = edit(STUDY, ("4*h", "0.5"), (LEVELS, MANY), ('source = "local"', 'source = "nonlocal"'))
 
+    MAP = STUDY[:STUDY.index("[[path]]")].replace('title = "A tiny study"', 'kind = "map"') + """\
+[map]
+delta = [0.04, 0.16, 0.4, 0.6]
+N = [57, 80, 113, 160]
+sources = ["local"]
+"""
+
     def start(self, *arguments):
         """Starts a run whose stderr is a terminal; (process, function that reads the terminal)."""
         try:
@@ -416,6 +423,34 @@ class Interruption(ProgramTest):
         self.assertRegex(said, r"1 of 4 cases, \d+ s, about \d+ s left")
         self.assertIn("4 of 4 cases", said)
         self.assertTrue(said.endswith("\r\033[K"), repr(said))
+
+    def test_the_terminal_counts_cases_and_findings_and_shows_them_at_once(self):
+        text = (ROOT / "studies" / "consistency.toml").read_text(encoding="utf-8")
+        self.write("tiny.toml", edit(text, ('name = "consistency"', 'name = "tiny"')))
+        process, read = self.start()
+        said = ""
+        while ", 2 s" not in said:
+            said += (new := read())
+            self.assertTrue(new, said)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        # The line is there before anything is done, and every second from then on.
+        self.assertRegex(said, r"\A\r\033\[K0 of \d+ findings, 0 s\r")
+        self.assertIn(" findings, 1 s", said)
+        # Of what is left nothing is said before the first is there.
+        for line in said.split("\r\033[K"):
+            if line.startswith("0 of"):
+                self.assertNotIn("left", line)
+        self.write("tiny.toml", self.MAP)
+        process, read = self.start("--fresh")
+        process.communicate(timeout=30)
+        said = ""
+        while new := read():
+            said += new
+        self.assertRegex(said, r"\A\r\033\[K0 of 16 cases and 0 of \d+ findings, 0 s\r")
+        self.assertRegex(said, r"8 of 16 cases and 0 of \d+ findings, \d+ s, about \d+ s left for the cases")
+        self.assertRegex(said, r"16 of 16 cases and 0 of \d+ findings, \d+ s\r")
+        self.assertRegex(said, r"16 of 16 cases and 1 of \d+ findings, \d+ s, about \d+ s left\r")
 
     def test_without_a_terminal_a_good_run_says_nothing(self):
         done = self.run_study(GOOD, expect=0)

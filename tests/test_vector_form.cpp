@@ -400,6 +400,32 @@ TEST_CASE("Cases that share their particles end as each would alone", "[vector]"
   CHECK(seconds > 0.5 * passed);
 }
 
+TEST_CASE("Cases that would take too long together are put off, and end as each would alone", "[vector]") {
+  const auto scene = named_scene("lee-du-2019");
+  std::vector<Case> cases;
+  for (int i = 0; i < 8; ++i)
+    cases.push_back(case_on(scene, 2, i % 2 == 1, {"cubic-spline"}, 600, 1.0 + 0.1 * (i / 2)));
+  std::vector<const Case*> open;
+  for (const Case& c : cases) open.push_back(&c);
+  const std::atomic<bool> stop{false};
+  std::size_t rounds = 0;
+  for (; !open.empty(); ++rounds) {
+    const std::vector<CaseResult> results = run_cases(open, stop, 2, 1, 1e-9);
+    std::vector<const Case*> put_off;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (results[i].completed) {
+        CHECK(results[i].u == result_of(*open[i], false).u);
+        CHECK(results[i].repeats == 2);
+      } else {
+        put_off.push_back(open[i]);
+      }
+    }
+    REQUIRE(put_off.size() < open.size());
+    open = put_off;
+  }
+  CHECK(rounds > 1);
+}
+
 TEST_CASE("A case that fails takes none of those along that share its particles", "[vector]") {
   // Within this horizon the solution waves more often than any Gauss rule of the source can follow.
   const auto scene = std::make_shared<const Scene>(SceneText{

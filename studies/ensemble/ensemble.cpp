@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -153,12 +154,17 @@ struct Member {
   PerThread<double> largest;  ///< |u| after the last stage
   double t = 0.0;
   bool running = true;
+  bool put_off = false;  ///< left where it is, to be run another time
 };
 
 class Ensemble {
  public:
-  Ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop)
-      : stop_(stop), team_(threads), scene_(*cases.front()->scene), first_(*cases.front()) {
+  Ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop, double most_seconds)
+      : stop_(stop),
+        most_seconds_(most_seconds),
+        team_(threads),
+        scene_(*cases.front()->scene),
+        first_(*cases.front()) {
     timed(setup_seconds_, [&] { set_up(cases); });
   }
 
@@ -185,7 +191,7 @@ class Ensemble {
     for (Member& m : members_) {
       m.result.against_bound = m.bound.result();
       share_time(m, seconds);
-      if (!stop_.load(std::memory_order_relaxed)) {
+      if (!m.put_off && !(m.running && interrupted_)) {
         conclude(m.result, m.c, *m.growth, m.values.u.values(), m.t, m.solution_at_first,
                  [&](double time) { return particles_->positions(time); });
         count_work(m);
@@ -262,8 +268,11 @@ class Ensemble {
 
   template <class Steps>
   void go(Steps steps) {
+    const auto start = std::chrono::steady_clock::now();
     std::int64_t n = 0;
     while (const std::optional<TimeStep> step = steps.next()) {
+      interrupted_ = stop_.load(std::memory_order_relaxed);
+      if (interrupted_) return;
       // Times are taken in all of the first steps and then in the middle one of every sixteen.
       team_.weigh(n < 64 ? 1.0 : n % 16 == 8 ? 16.0 : 0.0);
       for (const Stage& stage : first_.integrator->stages) {
@@ -273,6 +282,42 @@ class Ensemble {
       stages_done_ = 0;
       ++n;
       if (!look(n, *step)) return;
+      if (!weighed_up_ && std::isfinite(most_seconds_) && (n <= 64 || n % 16 == 0)) {
+        const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (elapsed > 0.1 * most_seconds_) weigh_up(elapsed, step->end / scene_.T());
+      }
+    }
+  }
+
+  /// Puts groups off if all would take much longer than is wanted, by what this part of the run has taken. What is put
+  /// off pays for positions and the source of the PDE again, so more are kept where these are dear.
+  void weigh_up(double elapsed, double part) {
+    weighed_up_ = true;
+    const auto own_seconds = [&](const SweepGroup& group) {
+      double own = group.seconds;
+      for (const Member& m : members_) own += m.group == &group && m.own_source ? m.own_source->seconds : 0.0;
+      return own;
+    };
+    double shared = elapsed;
+    for (const auto& group : groups_) shared -= own_seconds(*group);
+    const double wanted = std::max(most_seconds_, 4.0 * shared / part);
+    if (elapsed / part <= 1.5 * wanted) return;
+    double seconds = shared / part;
+    bool any = false;
+    for (const auto& group : groups_) {
+      if (group->empty()) continue;
+      const double own = own_seconds(*group) / part;
+      if (!any || seconds + own <= wanted) {
+        any = true;
+        seconds += own;
+        continue;
+      }
+      for (Member& m : members_) {
+        if (!m.running || m.group != group.get()) continue;
+        m.running = false;
+        m.put_off = true;
+        group->remove(m.values);
+      }
     }
   }
 
@@ -348,7 +393,7 @@ class Ensemble {
       }
       any |= m.running;
     }
-    return any && !stop_.load(std::memory_order_relaxed);
+    return any;
   }
 
   /// The bound of the lemma, the same for all cases, at the particles of time t.
@@ -358,14 +403,16 @@ class Ensemble {
   }
 
   void share_time(Member& m, double seconds) {
-    const auto count = static_cast<double>(members_.size());
+    const auto with = [&](auto has) {
+      return static_cast<double>(std::count_if(members_.begin(), members_.end(),
+                                               [&](const Member& other) { return !other.put_off && has(other); }));
+    };
+    if (m.put_off) return;
+    const double count = with([](const Member&) { return true; });
     double of_groups = 0.0, of_sources = 0.0;
     for (const auto& group : groups_) of_groups += group->seconds;
     if (local_source_) of_sources += local_source_->seconds;
     for (const Member& other : members_) of_sources += other.own_source ? other.own_source->seconds : 0.0;
-    const auto with = [&](auto has) {
-      return static_cast<double>(std::count_if(members_.begin(), members_.end(), has));
-    };
     CaseResult& r = m.result;
     r.pairs_seconds = m.group->seconds / with([&](const Member& other) { return other.group == m.group; });
     r.positions_seconds = particles_->positions_seconds / count;
@@ -391,6 +438,8 @@ class Ensemble {
   }
 
   const std::atomic<bool>& stop_;
+  double most_seconds_;
+  bool interrupted_ = false, weighed_up_ = false;
   Team team_;
   const Scene& scene_;
   const Case& first_;
@@ -404,8 +453,9 @@ class Ensemble {
 
 }  // namespace
 
-std::vector<CaseResult> run_ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop) {
-  return Ensemble(cases, threads, stop).run();
+std::vector<CaseResult> run_ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop,
+                                     double most_seconds) {
+  return Ensemble(cases, threads, stop, most_seconds).run();
 }
 
 }  // namespace acstudy

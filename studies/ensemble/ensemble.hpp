@@ -4,6 +4,7 @@
 /// Cases on the same particles, advanced together in the vector form of their schemes.
 
 #include <atomic>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,8 +31,12 @@ std::string sweep_key(const Case& c);
 /// model at one horizon share their sweep over pairs. `seconds` of a case are its share: those of all cases add up to
 /// the time that passed.
 /// @param threads  that share the work; the numbers do not depend on it
-/// @param stop     looked at between time steps; once true, results have `completed` false
+/// @param stop     looked at between time steps; once true, results of cases that are still running have `completed`
+///                 false
+/// @param most_seconds  once it can be seen that all would take much longer, some cases are put off: they are left
+///                      where they are, with `completed` false, so that the others are done in about that time
 /// @pre   runs_in_vector_form of every case
-std::vector<CaseResult> run_ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop);
+std::vector<CaseResult> run_ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop,
+                                     double most_seconds = std::numeric_limits<double>::infinity());
 
 }  // namespace acstudy

@@ -10,6 +10,7 @@
 
 #include "build_info.hpp"
 #include "studies/h5.hpp"
+#include "studies/reference.hpp"
 #include "studies/result_json.hpp"
 
 namespace acstudy {
@@ -65,6 +66,43 @@ struct Columns {
   std::vector<std::int64_t>& of(const std::string& name, std::int64_t) { return count[name]; }
 };
 
+/// A column for each of the results of these cases, and their fields.
+void write_cases(hid_t group, const SeriesResult& result, const std::vector<std::size_t>& indices) {
+  const Series& series = *result.series;
+  Columns columns;
+  const auto visit = [&series](const Case& c, const CaseResult& r, auto&& column) {
+    column("N", c.N);
+    column("h", c.h);
+    column("delta", c.delta);
+    column("variable", series.variable(c.h, c.delta));
+    for_each_column(r, column);
+  };
+  // Without a completed case the columns are there all the same, and empty.
+  visit(series.cases.front(), CaseResult{}, [&](const char* name, auto value) { columns.of(name, value); });
+  for (const std::size_t i : indices) {
+    visit(series.cases[i], result.results[i],
+          [&](const char* name, auto value) { columns.of(name, value).push_back(value); });
+  }
+  for (const auto& [name, values] : columns.real) h5::write_column<double>(group, name, values);
+  for (const auto& [name, values] : columns.count) h5::write_column<std::int64_t>(group, name, values);
+
+  const h5::Handle cases = h5::create_group(group, "cases");
+  for (const std::size_t i : indices) {
+    const CaseResult& r = result.results[i];
+    const h5::Handle one = h5::create_group(cases, std::to_string(series.cases[i].N));
+    h5::write_text(one, "key", storage_key(series.cases[i]));
+    h5::write_text(one, "blow_up", r.blow_up);
+    h5::write_text(one, "failure", r.failure);
+    h5::write_column<double>(one, "x", r.x);
+    h5::write_column<double>(one, "u", r.u);
+    if (!series.against_reference) {
+      h5::write_column<double>(one, "u_exact", r.u_exact);
+    } else if (!r.u_exact.empty()) {
+      h5::write_column<double>(one, "u_reference", r.u_exact);
+    }
+  }
+}
+
 void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
@@ -95,34 +133,9 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
   h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
   h5::write_column<double>(group, "pairwise", result.judgement.pairwise);
 
-  const auto indices = result.completed();
-  Columns columns;
-  const auto visit = [&series](const Case& c, const CaseResult& r, auto&& column) {
-    column("N", c.N);
-    column("h", c.h);
-    column("delta", c.delta);
-    column("variable", series.variable(c.h, c.delta));
-    for_each_column(r, column);
-  };
-  // Without a completed case the columns are there all the same, and empty.
-  visit(series.cases.front(), CaseResult{}, [&](const char* name, auto value) { columns.of(name, value); });
-  for (const std::size_t i : indices) {
-    visit(series.cases[i], result.results[i],
-          [&](const char* name, auto value) { columns.of(name, value).push_back(value); });
-  }
-  for (const auto& [name, values] : columns.real) h5::write_column<double>(group, name, values);
-  for (const auto& [name, values] : columns.count) h5::write_column<std::int64_t>(group, name, values);
-
-  const h5::Handle cases = h5::create_group(group, "cases");
-  for (const std::size_t i : indices) {
-    const CaseResult& r = result.results[i];
-    const h5::Handle one = h5::create_group(cases, std::to_string(series.cases[i].N));
-    h5::write_text(one, "key", storage_key(series.cases[i]));
-    h5::write_text(one, "blow_up", r.blow_up);
-    h5::write_text(one, "failure", r.failure);
-    h5::write_column<double>(one, "x", r.x);
-    h5::write_column<double>(one, "u", r.u);
-    h5::write_column<double>(one, "u_exact", r.u_exact);
+  write_cases(group, result, result.completed_levels());
+  if (result.reference() != nullptr) {
+    write_cases(h5::create_group(group, "reference"), result, std::vector{series.levels()});
   }
 }
 
@@ -249,7 +262,9 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
     h5::write_number(scene, "period", study.scene->period());
     h5::write_number(scene, "T", study.scene->T());
     h5::write_text(scene, "c", text.c);
-    h5::write_text(scene, "u", text.u);
+    if (study.scene->solved()) h5::write_text(scene, "u", text.u);
+    if (text.u0) h5::write_text(scene, "u0", *text.u0);
+    if (text.f) h5::write_text(scene, "f", *text.f);
     if (text.b) h5::write_text(scene, "b", *text.b);
     if (text.flow) h5::write_text(scene, "flow", *text.flow);
   }
@@ -293,6 +308,16 @@ std::vector<std::size_t> SeriesResult::completed() const {
   return indices;
 }
 
+std::vector<std::size_t> SeriesResult::completed_levels() const {
+  std::vector<std::size_t> indices = completed();
+  if (reference() != nullptr) indices.pop_back();
+  return indices;
+}
+
+const CaseResult* SeriesResult::reference() const {
+  return series->against_reference && results.back().completed ? &results.back() : nullptr;
+}
+
 std::string not_computed(const std::string& failure) { return "a case could not be computed: " + failure; }
 
 std::vector<std::pair<std::string, double>> named_estimates(const Judgement& j) {
@@ -319,22 +344,27 @@ std::vector<std::pair<std::string, double>> named_estimates(const Judgement& j) 
 
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results) {
   std::vector<Level> levels;
-  for (std::size_t i = 0; i < results.size(); ++i) {
+  for (std::size_t i = 0; i < series.levels(); ++i) {
     const Case& c = series.cases[i];
     if (results[i].completed) levels.push_back({series.variable(c.h, c.delta), results[i].error_linf});
   }
-  Judgement judgement = judge(levels, series.theory.order);
+  Judgement judgement = judge_errors(levels, series.reference_level(), series.theory.order, {});
   const auto first_with = [&](std::string CaseResult::*text) {
     return std::find_if(results.begin(), results.end(), [&](const CaseResult& r) { return !(r.*text).empty(); });
   };
   if (const auto failed = first_with(&CaseResult::failure); failed != results.end()) {
     judgement.verdict = Verdict::inconclusive;
     judgement.reason = not_computed(failed->failure);
+  } else if (series.against_reference && !results.back().completed) {
+    judgement.verdict = Verdict::inconclusive;
+    judgement.reason = "the reference has not been run";
   } else if (const auto unstable = first_with(&CaseResult::blow_up); unstable != results.end()) {
     judgement.reason += ": " + unstable->blow_up;
   }
   if (series.expected == Verdict::stable) {
-    for (const CaseResult& r : results) require_bounded(judgement, r.error_linf, r.solution_linf);
+    for (std::size_t i = 0; i < series.levels(); ++i) {
+      require_bounded(judgement, results[i].error_linf, results[i].solution_linf);
+    }
   }
   return judgement;
 }
@@ -348,6 +378,39 @@ void require_bounded(Judgement& judgement, double error, double solution) {
 std::string findings_key(const Study& study) { return study.text + "|measurements=" + measurements_fingerprint(); }
 
 std::string storage_key(const Case& c) { return c.key() + "|numerics=" + numerics_fingerprint(); }
+
+namespace {
+
+/// What `write_cases` has written.
+void read_cases(hid_t group, StoredCases& stored) {
+  const h5::Handle cases = h5::open_group(group, "cases");
+  const auto N = h5::read_column<std::int64_t>(group, "N");
+  std::vector<CaseResult> results(N.size());
+  Columns columns;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    for_each_column(results[i], [&]<class T>(const char* column, T& value) {
+      // Files of older versions lack some. Their cases have other keys, so nothing is missed.
+      if (H5Lexists(group, column, H5P_DEFAULT) <= 0) return;
+      std::vector<T>& values = columns.of(column, T{});
+      if (values.empty()) values = h5::read_column<T>(group, column);
+      value = values.at(i);
+    });
+  }
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
+    CaseResult& result = results[i];
+    result.completed = true;
+    result.blow_up = h5::read_text(one, "blow_up");
+    result.failure = h5::read_text(one, "failure");
+    result.x = h5::read_column<double>(one, "x");
+    result.u = h5::read_column<double>(one, "u");
+    // What a reference gives is found anew.
+    if (H5Lexists(one, "u_exact", H5P_DEFAULT) > 0) result.u_exact = h5::read_column<double>(one, "u_exact");
+    stored.cases[h5::read_text(one, "key")] = std::move(result);
+  }
+}
+
+}  // namespace
 
 StoredCases load_cases(const fs::path& file) {
   StoredCases stored;
@@ -363,30 +426,9 @@ StoredCases load_cases(const fs::path& file) {
       stored.provenance.emplace_back(name, h5::read_text(origin, name));
     const h5::Handle all = h5::open_group(root, "series");
     for (const std::string& name : h5::group_names(all)) {
-      const h5::Handle group = h5::open_group(all, name), cases = h5::open_group(group, "cases");
-      const auto N = h5::read_column<std::int64_t>(group, "N");
-      std::vector<CaseResult> results(N.size());
-      Columns columns;
-      for (std::size_t i = 0; i < results.size(); ++i) {
-        for_each_column(results[i], [&]<class T>(const char* column, T& value) {
-          // Files of older versions lack some. Their cases have other keys, so nothing is missed.
-          if (H5Lexists(group, column, H5P_DEFAULT) <= 0) return;
-          std::vector<T>& values = columns.of(column, T{});
-          if (values.empty()) values = h5::read_column<T>(group, column);
-          value = values.at(i);
-        });
-      }
-      for (std::size_t i = 0; i < results.size(); ++i) {
-        const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
-        CaseResult& result = results[i];
-        result.completed = true;
-        result.blow_up = h5::read_text(one, "blow_up");
-        result.failure = h5::read_text(one, "failure");
-        result.x = h5::read_column<double>(one, "x");
-        result.u = h5::read_column<double>(one, "u");
-        result.u_exact = h5::read_column<double>(one, "u_exact");
-        stored.cases[h5::read_text(one, "key")] = std::move(result);
-      }
+      const h5::Handle group = h5::open_group(all, name);
+      read_cases(group, stored);
+      if (H5Lexists(group, "reference", H5P_DEFAULT) > 0) read_cases(h5::open_group(group, "reference"), stored);
     }
     // Findings of other sources are not used again, so they need not be readable; older files have none.
     if (H5Lexists(root, "findings", H5P_DEFAULT) <= 0) return stored;

@@ -95,7 +95,8 @@ class ReferenceTest(ProgramTest):
         self.assertIn("fewer than four levels beside the reference", self.acstudy("explain", "few.toml").stdout)
 
     def test_a_reference_that_blows_up_leaves_no_errors(self):
-        self.run_study(edit(FINER, ('step = "h/4"', 'step = "h/4*max(1, 10*(N - 255))"'), ('"4*h"', '"h^2"')), expect=3)
+        self.run_study(edit(FINER, ("256", "1024"), ('step = "h/4"', 'step = "h/4*max(1, 5*(N - 1023))"'),
+                            ('"4*h"', '"h^2"')), expect=3)
         series = self.result()["series"][0]
         self.assertEqual(({case["error_linf"] for case in series["cases"]}, series["verdict"]), ({None}, "unstable"))
         self.assertIn("blow_up", series["reference"])

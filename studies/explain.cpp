@@ -59,10 +59,6 @@ std::string explain_measurements(const Study& study) {
   return out + fmt::format("\n{} measurements, {} cases run for them\n", study.measurements.size(), cases);
 }
 
-}  // namespace
-
-namespace {
-
 std::string solution(const SceneText& scene) {
   if (!scene.u0) return fmt::format("  u = {}\n", scene.u);
   return fmt::format("  u = {} at t = 0, not known later\n  f = {}\n", *scene.u0, scene.f.value_or("0"));
@@ -71,11 +67,13 @@ std::string solution(const SceneText& scene) {
 /// What errors are against where no solution is known, and how much of them is seen.
 std::string explain_reference(const Series& series, const ReferenceLevel& reference) {
   const Case& finest = series.cases[series.levels() - 1];
-  const double seen = 1.0 - std::pow(reference.variable / series.variable(finest.h, finest.delta), series.theory.order);
-  std::string out = fmt::format(
-      "  reference: the run at N = {}; to it the finest level has {:.0f} % of its error, which the judge makes up "
-      "for\n",
-      reference.N, 100.0 * seen);
+  const double missing = std::pow(reference.variable / series.variable(finest.h, finest.delta), series.theory.order);
+  std::string out = fmt::format("  reference: the run at N = {}", reference.N);
+  if (series.theory.order > 0.0) {
+    out += fmt::format("; to it the finest level has {:.0f} % of its error, which the judge makes up for",
+                       100.0 * (1.0 - missing));
+  }
+  out += "\n";
   if (series.levels() < 4) out += "  fewer than four levels beside the reference: an order is hardly determined\n";
   return out;
 }

@@ -1,12 +1,14 @@
 """Studies without an exact solution, as a user meets them: errors against the finest run."""
 
 import json
+import subprocess
+import sys
 import unittest
 
 import h5py
 import numpy as np
 
-from tests.program import UNSOLVED, ProgramTest, edit
+from tests.program import ROOT, UNSOLVED, ProgramTest, edit
 
 FINER = edit(UNSOLVED, ('source = "local"', 'source = "local"\nreference = 256'), ("[16, 32, 64]", "[16, 32, 64, 96]"))
 
@@ -70,6 +72,10 @@ class ReferenceTest(ProgramTest):
         self.run_study(good, expect=0)
         file = self.folder / "out" / "tiny.json"
         self.assertEqual(self.acstudy("check", file).returncode, 0)
+        # Its limit is not known, so it is no evidence for a theorem.
+        claims = subprocess.run([sys.executable, ROOT / "scripts" / "claims.py", self.folder / "out"], text=True,
+                                capture_output=True, check=True).stdout
+        self.assertEqual(len(claims.splitlines()), 2)
         data = self.result()
         self.assertAlmostEqual(data["series"][0]["observed"]["order"], 1.0, delta=0.03)
         for change, reason in ((lambda series: series.pop("reference"), "4 of 5 cases; the run was interrupted"),

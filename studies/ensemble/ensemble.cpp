@@ -12,7 +12,6 @@
 #include "solver/vector/clones.hpp"
 #include "studies/ensemble/shared_particles.hpp"
 #include "studies/ensemble/sweep_group.hpp"
-#include "studies/operator.hpp"
 #include "studies/outcome.hpp"
 #include "studies/scheme.hpp"
 #include "studies/stopwatch.hpp"

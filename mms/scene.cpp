@@ -48,12 +48,13 @@ std::vector<double> samples(double period) {
 
 }  // namespace
 
+std::string SceneText::solution() const { return u0 ? fmt::format("u0={}|f={}", *u0, f.value_or("0")) : u; }
+
 Scene::Scene(SceneText text)
     : text_(std::move(text)),
       period_(constant("period", text_.period, Zero::refused)),
       T_(constant("T", text_.T, Zero::allowed)),
-      c_(compile("c", text_.c, {"x"})),
-      u_(compile("u", text_.u, {"x", "t"})) {
+      c_(compile("c", text_.c, {"x"})) {
   if (text_.b) {
     b_ = compile("b", *text_.b, {"x"});
     check_periodic("b", *b_);
@@ -65,7 +66,46 @@ Scene::Scene(SceneText text)
     check_flow();
   }
   check_periodic("c", c_);
-  check_periodic("u", u_);
+  if (!text_.u0) {
+    u_ = compile("u", text_.u, {"x", "t"});
+    check_periodic("u", *u_);
+    return;
+  }
+  u0_ = compile("u0", *text_.u0, {"x"});
+  check_periodic("u0", *u0_);
+  if (!text_.f) return;
+  f_ = compile("f", *text_.f, {"x", "t"});
+  check_periodic("f", *f_);
+  if (f_->is_constant() && (*f_)({0.0, 0.0}) == 0.0) f_.reset();
+}
+
+double Scene::solution_size(std::span<const double> x, double t) const {
+  std::vector<double> values(x.size());
+  const auto largest = [](std::span<const double> of) {
+    double most = 0.0;
+    for (const double value : of) most = std::max(most, std::abs(value));
+    return most;
+  };
+  if (solved()) {
+    u(x, t, values);
+    return largest(values);
+  }
+  const auto points = samples(period_);
+  values.resize(points.size());
+  initial(points, values);
+  double size = largest(values);
+  if (f_) {
+    constexpr int times = 64;
+    double source = 0.0;
+    for (int i = 0; i <= times; ++i) {
+      f(points, t * i / times, values);
+      source = std::max(source, largest(values));
+    }
+    size += t * source;
+  }
+  std::vector<double> slope(points.size());
+  c(points, values, slope);
+  return size * std::exp(t * largest(slope));
 }
 
 void Scene::check_periodic(const char* field, const Expression& expression) const {

@@ -18,12 +18,17 @@ namespace acstudy {
 
 /// A scene as text; also how named scenes are written down.
 struct SceneText {
-  std::string name;                 ///< empty for a scene given inline
-  std::string period, T;            ///< constants, "2*pi"
-  std::string c;                    ///< advection velocity c(x)
-  std::optional<std::string> b;     ///< particle velocity b(x); absent: particles stand still
-  std::string u;                    ///< exact solution u(x, t)
-  std::optional<std::string> flow;  ///< position at time t of the particle that starts at x; absent: integrated
+  std::string name;                    ///< empty for a scene given inline
+  std::string period, T;               ///< constants, "2*pi"
+  std::string c;                       ///< advection velocity c(x)
+  std::optional<std::string> b;        ///< particle velocity b(x); absent: particles stand still
+  std::string u;                       ///< exact solution u(x, t); empty where none is known, and u0 is given
+  std::optional<std::string> flow;     ///< position at time t of the particle that starts at x; absent: integrated
+  std::optional<std::string> u0 = {};  ///< initial values u0(x), where no solution is known
+  std::optional<std::string> f = {};   ///< source f(x, t), where no solution is known; absent: none
+
+  /// What is known of the solution, as text that differs where that differs: u, or u0 and f.
+  std::string solution() const;
 };
 
 /// A scene that is not sound; `field` is the member of SceneText at fault, `position` an offset within its text.
@@ -42,6 +47,7 @@ class Scene {
  public:
   /// Compiles the texts and checks what they promise: finite values, period positive, T not negative, fields periodic,
   /// the flow a solution of x' = b(x) that starts at x, from 0 to T.
+  /// @pre  either u is given or u0 is
   /// @throws SceneError
   explicit Scene(SceneText text);
 
@@ -62,11 +68,25 @@ class Scene {
   }
   void b_prime(std::span<const double> x, std::span<double> out) const { b_->evaluate(x, {}, {{}, out, {}}); }
 
-  /// Exact solution and, where the span is not empty, u_x and u_t.
+  /// True if the exact solution is known. If not, initial values are, and the source, if there is one.
+  bool solved() const { return u_.has_value(); }
+  /// Exact solution and, where the span is not empty, u_x and u_t.  @pre solved()
   void u(std::span<const double> x, double t, std::span<double> u, std::span<double> u_x = {},
          std::span<double> u_t = {}) const {
-    u_.evaluate(x, {t}, {u, u_x, u_t});
+    u_->evaluate(x, {t}, {u, u_x, u_t});
   }
+  /// u at t = 0.
+  void initial(std::span<const double> x, std::span<double> out) const {
+    solved() ? u(x, 0.0, out) : u0_->evaluate(x, {0.0}, {out, {}, {}});
+  }
+  /// True if there is nothing on the right-hand side: no solution is known, and no source is given.
+  bool sourceless() const { return !solved() && !f_; }
+  /// The given source.  @pre !solved() && !sourceless()
+  void f(std::span<const double> x, double t, std::span<double> out) const { f_->evaluate(x, {t}, {out, {}, {}}); }
+
+  /// Largest |u| at x. Where u is not known: the most that initial values, source and compression leave of it,
+  /// (max|u0| + t max|f|) exp(t max|c'|), from samples.
+  double solution_size(std::span<const double> x, double t) const;
 
   /// max |c - b| over the period, to round-off: the default of Model II's viscosity bound mu.
   double max_relative_velocity() const;
@@ -82,7 +102,7 @@ class Scene {
   double period_, T_;
   Expression c_;
   std::optional<Expression> b_;
-  Expression u_;
+  std::optional<Expression> u_, u0_, f_;
   std::optional<Expression> flow_;
 };
 

@@ -35,6 +35,22 @@ class LocalSource : public Source {
   Values x_, c_, c_prime_, u_, u_x_, u_t_;
 };
 
+/// The source of a scene whose solution is not known.
+class GivenSource : public Source {
+ public:
+  explicit GivenSource(const Scene& scene) : scene_(scene) {}
+
+  void place(std::span<const double> x) override { x_.assign(x.begin(), x.end()); }
+
+  void evaluate(double t, std::span<double> f) override {
+    scene_.sourceless() ? std::fill(f.begin(), f.end(), 0.0) : scene_.f(x_, t, f);
+  }
+
+ private:
+  const Scene& scene_;
+  Values x_;
+};
+
 /// Velocities at a set of points: c_hat and its derivative, b and its derivative; the latter empty where nothing moves.
 struct Velocities {
   Values c_hat, c_hat_prime, b, b_prime;
@@ -248,7 +264,10 @@ class SourceSamples {
 
 }  // namespace
 
-std::unique_ptr<Source> local_source(const Scene& scene) { return std::make_unique<LocalSource>(scene); }
+std::unique_ptr<Source> local_source(const Scene& scene) {
+  if (!scene.solved()) return std::make_unique<GivenSource>(scene);
+  return std::make_unique<LocalSource>(scene);
+}
 
 std::unique_ptr<Source> nonlocal_source(const Scene& scene, const NonlocalModel& model, std::size_t points, Look look) {
   if (model.model == 1) {

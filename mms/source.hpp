@@ -39,7 +39,8 @@ class Source {
   virtual std::int64_t quadrature_points() const { return 0; }
 };
 
-/// u solves the PDE (1.1): f = u_t + (c u)_x, the same in every frame. No quadrature.
+/// u solves the PDE (1.1): f = u_t + (c u)_x, the same in every frame; or the given f, where the scene's solution is
+/// not known. No quadrature.
 std::unique_ptr<Source> local_source(const Scene& scene);
 
 /// u solves the nonlocal model at this horizon. The scene must outlive the source.

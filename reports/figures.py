@@ -61,13 +61,16 @@ def drawings(study, styles):
     if figure is None:
         return []
     paths = ", ".join(dict.fromkeys(series.path for series in study.series))
+    against = "" if study.scene.u else (
+        " Errors are differences to a finer run, whose own error is missing in them: curves bend down near it, and "
+        "orders make up for it.")
     return [Drawing(
         study.name, study.title, figure,
         f"Log-log plot of the max-norm error at the final time for {study.title}; paths: {paths}. "
         "Values: tables below.",
         "Error of each scheme along each path; the thin line has theory's slope. Limit order: that of a power law "
         "with a correction, to which the order tends under refinement, with its 95 % interval; with three "
-        "levels the order is that of a power law alone. Numbers above a panel: particles N.")]
+        "levels the order is that of a power law alone. Numbers above a panel: particles N." + against)]
 
 
 def error_figure(study, styles):
@@ -88,7 +91,8 @@ def error_figure(study, styles):
             _error_panel(frame, path, group, drawn, bounds, lines)
             _legend(frame, group, drawn, texts, beside=len(panels) == 1)
             if frame.first:
-                frame.axes.set_ylabel(f"max-norm error at $T = {study.scene.T:.4g}$")
+                measured = "error" if study.scene.u else "difference to a finer run"
+                frame.axes.set_ylabel(f"max-norm {measured} at $T = {study.scene.T:.4g}$")
         return figure
 
 
@@ -163,10 +167,14 @@ def cost_drawing(studies, styles):
 
 
 def cost_curves(studies):
-    """Each series once, though several studies may have run it; of such doubles, the first with the most cases."""
+    """Each series once, though several studies may have run it; of such doubles, the first with the most cases.
+
+    Differences to a finer run are no errors; they are left out.
+    """
     curves = {}
     for study in studies:
-        for series in study.series if study.kind == CONVERGENCE and not study.steps_in_several_ways else ():
+        timed = study.kind == CONVERGENCE and not study.steps_in_several_ways and study.scene.u
+        for series in study.series if timed else ():
             key = (series.scheme, series.path, series.delta_text, series.source, series.step_text,
                    series.integrator, astuple(study.scene))
             if key not in curves or len(series.cases) > len(curves[key][1].cases):

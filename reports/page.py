@@ -165,7 +165,8 @@ def _origin(study):
     scene = {} if study.scene is None else {
         "name": study.scene.name, "period": f"{study.scene.period:.10g}", "T": f"{study.scene.T:.10g}",
         "advection velocity c": study.scene.c, "particle velocity b": study.scene.b or "none: particles stand still",
-        "exact solution u": study.scene.u, "flow": study.scene.flow or "none given"}
+        **({"exact solution u": study.scene.u} if study.scene.u else
+           {"initial values u0": study.scene.u0, "source f": study.scene.f or "0"}), "flow": study.scene.flow or "none given"}
     text = f'<pre tabindex="0">{escape(study.text)}</pre>\n' if study.text else ""
     asked = "Scene and study file" if scene else "Study file"
     return (f"<details><summary>{asked}</summary>\n{markup.listing(scene)}{text}</details>\n"

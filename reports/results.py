@@ -35,7 +35,10 @@ class Scheme:
 
 @dataclass(frozen=True)
 class Scene:
-    """What is solved, free of any discretization. `b` and `flow` are empty where the study has none."""
+    """What is solved, free of any discretization. `b` and `flow` are empty where the study has none.
+
+    Where no solution is known `u` is empty, and initial values and source are given: `u0`, `f`.
+    """
     name: str
     period: float
     T: float
@@ -43,6 +46,8 @@ class Scene:
     b: str
     u: str
     flow: str
+    u0: str = ""
+    f: str = ""
 
 
 @dataclass(frozen=True)
@@ -223,7 +228,8 @@ def _study(path, file):
 
 def _scene(group):
     return Scene(name=_text(group, "name"), period=_number(group, "period"), T=_number(group, "T"),
-                 c=_text(group, "c"), b=_text(group, "b", ""), u=_text(group, "u"), flow=_text(group, "flow", ""))
+                 c=_text(group, "c"), b=_text(group, "b", ""), u=_text(group, "u", ""), flow=_text(group, "flow", ""),
+                 u0=_text(group, "u0", ""), f=_text(group, "f", ""))
 
 
 def _series(group):

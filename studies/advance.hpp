@@ -156,7 +156,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   CaseResult result;
   Motion motion(scene, start_positions(c.start, count, scene.period()));
   PeriodicArray u(count);
-  scene.u(motion.at(0.0), 0.0, u.values());
+  scene.initial(motion.at(0.0), u.values());
   GrowthWatch growth(u.values());
   const double solution_at_first = max_norm({u.values().begin(), u.values().end()});
   double t = 0.0;
@@ -167,11 +167,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
     watch.step(n, step);
     count_step(result, n, step);
     t = step.end;
-    const auto exact_size = [&] {
-      std::vector<double> exact(count);
-      scene.u(motion.at(t), t, exact);
-      return max_norm(exact);
-    };
+    const auto exact_size = [&] { return scene.solution_size(motion.at(t), t); };
     const bool goes_on = growth.makes_sense(n, t, u.values(), exact_size);
     interrupted = goes_on && t < scene.T() && stop.load(std::memory_order_relaxed);
     return goes_on && !interrupted;

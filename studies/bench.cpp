@@ -70,6 +70,10 @@ Bench plan_bench(std::span<const Study> studies, const std::vector<int>& threads
       throw InputError(fmt::format("{}: kind = \"{}\"; bench times the runs of convergence studies, so leave it out",
                                    study.file, study.kind));
     }
+    if (!study.scene->solved()) {
+      throw InputError(fmt::format(
+          "{}: bench sets run times against errors, and this scene has a reference in place of u", study.file));
+    }
     for (const Series& series : study.series) {
       for (const int count : threads) {
         BenchSeries& planned = bench.series.emplace_back(BenchSeries{&study, &series, count, {}});

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "studies/reference.hpp"
+
 namespace acstudy {
 
 namespace {
@@ -27,7 +29,8 @@ Row row_of(const std::string& file, const std::string& study, const std::string&
 }
 
 Row check_series(const std::string& file, const SeriesRecord& record) {
-  Judgement judgement = judge(record.levels, record.theory_order, {.scale = solution_scale(record.solutions)});
+  Judgement judgement =
+      judge_errors(record.levels, record.reference, record.theory_order, {.scale = solution_scale(record.solutions)});
   if (record.expected == Verdict::stable) {
     for (std::size_t i = 0; i < record.levels.size(); ++i) {
       require_bounded(judgement, record.levels[i].error, record.solutions[i]);
@@ -41,9 +44,9 @@ Row check_series(const std::string& file, const SeriesRecord& record) {
       meets(judgement.verdict, record.expected) && !(!record.failure.empty() && record.expected == Verdict::stable);
   Row row = row_of(file, record.study, record.label, judgement, as_expected, std::string(name_of(record.expected)),
                    record.verdict);
-  if (record.levels.size() != record.cases_planned) {
+  if (record.cases_run() != record.cases_planned) {
     row.passes = false;
-    row.reason = fmt::format("{} of {} cases; the run was interrupted", record.levels.size(), record.cases_planned);
+    row.reason = fmt::format("{} of {} cases; the run was interrupted", record.cases_run(), record.cases_planned);
   }
   return row;
 }

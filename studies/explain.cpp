@@ -32,7 +32,9 @@ std::string left_out(const Study& study) {
         "particle motion: b is absent, so no flow, no b terms; windows, weights and velocities once a case "
         "(weight_builds = 1)");
   }
-  if (any([](const Series& s) { return !s.nonlocal_source; })) {
+  if (!study.scene->solved()) {
+    line(study.scene->sourceless() ? "a source: f = 0" : "source quadrature: f is given (quadrature_points = 0)");
+  } else if (any([](const Series& s) { return !s.nonlocal_source; })) {
     line("source quadrature where the source is local: f = u_t + (c u)_x (quadrature_points = 0)");
   }
   if (any([](const Series& s) { return s.scheme.model == 1; })) line("viscosity and midpoint velocities in Model I");
@@ -57,15 +59,34 @@ std::string explain_measurements(const Study& study) {
   return out + fmt::format("\n{} measurements, {} cases run for them\n", study.measurements.size(), cases);
 }
 
+std::string solution(const SceneText& scene) {
+  if (!scene.u0) return fmt::format("  u = {}\n", scene.u);
+  return fmt::format("  u = {} at t = 0, not known later\n  f = {}\n", *scene.u0, scene.f.value_or("0"));
+}
+
+/// What errors are against where no solution is known, and how much of them is seen.
+std::string explain_reference(const Series& series, const ReferenceLevel& reference) {
+  const Case& finest = series.cases[series.levels() - 1];
+  const double missing = std::pow(reference.variable / series.variable(finest.h, finest.delta), series.theory.order);
+  std::string out = fmt::format("  reference: the run at N = {}", reference.N);
+  if (series.theory.order > 0.0) {
+    out += fmt::format("; to it the finest level has {:.0f} % of its error, which the judge makes up for",
+                       100.0 * (1.0 - missing));
+  }
+  out += "\n";
+  if (series.levels() < 4) out += "  fewer than four levels beside the reference: an order is hardly determined\n";
+  return out;
+}
+
 }  // namespace
 
 std::string explain(const Study& study) {
   if (!study.judged_by_series()) return explain_measurements(study);
   const SceneText& scene = study.scene->text();
   std::string out = fmt::format("{} - {}\n\n", study.name, study.title);
-  out += fmt::format("scene {}: period {}, T = {}\n  c = {}\n  b = {}\n  u = {}\n",
+  out += fmt::format("scene {}: period {}, T = {}\n  c = {}\n  b = {}\n{}",
                      scene.name.empty() ? "(inline)" : scene.name, scene.period, scene.T, scene.c,
-                     study.scene->standing() ? "0 (particles stand still)" : *scene.b, scene.u);
+                     study.scene->standing() ? "0 (particles stand still)" : *scene.b, solution(scene));
   if (!study.scene->standing()) {
     out += fmt::format("  flow = {}\n", scene.flow ? *scene.flow : "integrated from x' = b(x) to round-off");
   }
@@ -78,7 +99,10 @@ std::string explain(const Study& study) {
 
   std::size_t count = 0;
   for (const Series& series : study.series) {
-    out += fmt::format("\n{}, source {}\n", series.label(), series.nonlocal_source ? "nonlocal" : "local");
+    out += fmt::format("\n{}, source {}\n", series.label(),
+                       series.against_reference ? "given"
+                       : series.nonlocal_source ? "nonlocal"
+                                                : "local");
     const Case& first = series.cases.front();
     if (first.start != Start{}) out += fmt::format("  start: {}\n", first.start.label());
     if (first.step.bound != StepRule::Bound::none) {
@@ -92,6 +116,7 @@ std::string explain(const Study& study) {
     } else {
       out += fmt::format("  theory: the error does not vanish ({})\n", series.theory.statement);
     }
+    if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
     out += fmt::format("  the gate expects: {}\n", name_of(series.expected));
     if (series.scheme.model == 2) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
     out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps",
@@ -99,9 +124,10 @@ std::string explain(const Study& study) {
     for (const Case& c : series.cases) {
       const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
       out +=
-          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}\n", c.N, c.h, c.delta, c.dt,
+          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}{}\n", c.N, c.h, c.delta, c.dt,
                       c.steps, (series.scheme.model == 1 ? 1 : 2) * static_cast<std::int64_t>(per_side), c.cfl(),
-                      c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "");
+                      c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "",
+                      series.against_reference && &c == &series.cases.back() ? "  reference" : "");
       ++count;
     }
     if (series.scheme.model == 2 && series.scheme.kernel.name != "cubic-spline") {

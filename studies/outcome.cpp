@@ -36,17 +36,21 @@ void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std:
   const auto x = positions(end);
   result.x.assign(x.begin(), x.end());
   result.u.assign(u.begin(), u.end());
-  result.u_exact.resize(u.size());
-  scene.u(x, end, result.u_exact);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  Errors errors{unknown, unknown, unknown};
+  if (scene.solved()) {
+    result.u_exact.resize(u.size());
+    scene.u(x, end, result.u_exact);
+    errors = errors_of(scene, result.x, result.u, result.u_exact);
+  }
   result.solution_linf = std::max(solution_at_first, max_norm(result.u_exact));
-  const Errors errors = errors_of(scene, result.x, result.u, result.u_exact);
   if (to_the_end) {
     result.error_linf = errors.linf;
     result.error_l1 = errors.l1;
     result.error_l2 = errors.l2;
-    if (!std::isfinite(errors.linf)) result.blow_up = "the error is not finite at T";
+    if (scene.solved() && !std::isfinite(errors.linf)) result.blow_up = "the error is not finite at T";
   } else {
-    result.error_linf = result.error_l1 = result.error_l2 = std::numeric_limits<double>::quiet_NaN();
+    result.error_linf = result.error_l1 = result.error_l2 = unknown;
     result.last.error_linf = errors.linf;
     result.last.error_l1 = errors.l1;
     result.last.error_l2 = errors.l2;

@@ -18,7 +18,7 @@ struct Errors {
 Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
                  std::span<const double> u_exact);
 
-/// Fills in fields, errors and how the run ended.
+/// Fills in fields, errors and how the run ended. Without an exact solution errors are NaN, and there is no `u_exact`.
 /// @param u          at time t
 /// @param positions  of the particles at a time
 void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std::span<const double> u, double t,

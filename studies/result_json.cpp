@@ -32,6 +32,53 @@ json observed_json(const Judgement& judgement) {
   return out;
 }
 
+json case_json(const Case& c, const CaseResult& r) {
+  json one = {{"N", c.N},
+              {"h", c.h},
+              {"delta", c.delta},
+              {"dt", r.dt},
+              {"steps", r.steps},
+              {"error_linf", number(r.error_linf)},
+              {"solution_linf", number(r.solution_linf)},
+              {"error_l1", number(r.error_l1)},
+              {"error_l2", number(r.error_l2)},
+              {"seconds", r.seconds},
+              {"seconds_low", r.seconds_low},
+              {"seconds_high", r.seconds_high},
+              {"repeats", r.repeats},
+              {"positions_seconds", r.positions_seconds},
+              {"weights_seconds", r.weights_seconds},
+              {"pairs_seconds", r.pairs_seconds},
+              {"source_seconds", r.source_seconds},
+              {"work",
+               {{"pairs", r.work.pairs},
+                {"weight_builds", r.work.weight_builds},
+                {"quadrature_points", r.quadrature_points},
+                {"velocity_evaluations", r.work.velocity_evaluations},
+                {"flow_evaluations", r.flow_evaluations}}}};
+  if (r.dt_smallest != r.dt) one["dt_smallest"] = r.dt_smallest;
+  if (const StepsAgainstBound& bound = r.against_bound; bound.largest > 0.0) {
+    one["bound"] = {{"largest", bound.largest}};
+    if (bound.first_step > 0) {
+      one["bound"]["first_step"] = bound.first_step;
+      one["bound"]["first_time"] = bound.first_time;
+      one["bound"]["first_place"] = bound.first_place;
+    }
+  }
+  if (!r.blow_up.empty() || !r.failure.empty()) {
+    one["last"] = {{"step", r.last.step},
+                   {"time", number(r.last.time)},
+                   {"particle", r.last.particle},
+                   {"place", number(r.last.place)},
+                   {"error_linf", number(r.last.error_linf)},
+                   {"error_l1", number(r.last.error_l1)},
+                   {"error_l2", number(r.last.error_l2)}};
+  }
+  if (!r.blow_up.empty()) one["blow_up"] = r.blow_up;
+  if (!r.failure.empty()) one["failure"] = r.failure;
+  return one;
+}
+
 json series_json(const SeriesResult& result) {
   const Series& series = *result.series;
   const Judgement& judgement = result.judgement;
@@ -58,53 +105,12 @@ json series_json(const SeriesResult& result) {
   out["reason"] = judgement.reason;
   out["cases_planned"] = series.cases.size();
   out["cases"] = json::array();
-  for (const std::size_t i : result.completed()) {
-    const Case& c = series.cases[i];
-    const CaseResult& r = result.results[i];
-    json one = {{"N", c.N},
-                {"h", c.h},
-                {"delta", c.delta},
-                {"dt", r.dt},
-                {"steps", r.steps},
-                {"error_linf", number(r.error_linf)},
-                {"solution_linf", number(r.solution_linf)},
-                {"error_l1", number(r.error_l1)},
-                {"error_l2", number(r.error_l2)},
-                {"seconds", r.seconds},
-                {"seconds_low", r.seconds_low},
-                {"seconds_high", r.seconds_high},
-                {"repeats", r.repeats},
-                {"positions_seconds", r.positions_seconds},
-                {"weights_seconds", r.weights_seconds},
-                {"pairs_seconds", r.pairs_seconds},
-                {"source_seconds", r.source_seconds},
-                {"work",
-                 {{"pairs", r.work.pairs},
-                  {"weight_builds", r.work.weight_builds},
-                  {"quadrature_points", r.quadrature_points},
-                  {"velocity_evaluations", r.work.velocity_evaluations},
-                  {"flow_evaluations", r.flow_evaluations}}}};
-    if (r.dt_smallest != r.dt) one["dt_smallest"] = r.dt_smallest;
-    if (const StepsAgainstBound& bound = r.against_bound; bound.largest > 0.0) {
-      one["bound"] = {{"largest", bound.largest}};
-      if (bound.first_step > 0) {
-        one["bound"]["first_step"] = bound.first_step;
-        one["bound"]["first_time"] = bound.first_time;
-        one["bound"]["first_place"] = bound.first_place;
-      }
-    }
-    if (!r.blow_up.empty() || !r.failure.empty()) {
-      one["last"] = {{"step", r.last.step},
-                     {"time", number(r.last.time)},
-                     {"particle", r.last.particle},
-                     {"place", number(r.last.place)},
-                     {"error_linf", number(r.last.error_linf)},
-                     {"error_l1", number(r.last.error_l1)},
-                     {"error_l2", number(r.last.error_l2)}};
-    }
-    if (!r.blow_up.empty()) one["blow_up"] = r.blow_up;
-    if (!r.failure.empty()) one["failure"] = r.failure;
-    out["cases"].push_back(one);
+  for (const std::size_t i : result.completed_levels()) {
+    out["cases"].push_back(case_json(series.cases[i], result.results[i]));
+  }
+  if (const CaseResult* const reference = result.reference()) {
+    out["reference"] = case_json(series.cases.back(), *reference);
+    for (const char* const error : {"error_linf", "error_l1", "error_l2"}) out["reference"].erase(error);
   }
   return out;
 }
@@ -224,11 +230,18 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   if (series.contains("stepping")) record.label += ", " + series.at("stepping").get<std::string>();
   const json& theory = series.at("theory");
   const bool by_h = theory.at("variable").get<std::string>() == "h";
+  const auto variable = [by_h](const json& one) {
+    const double h = real(one.at("h"));
+    return by_h ? h : std::max(h, real(one.at("delta")));
+  };
   for (const json& one : series.at("cases")) {
-    const double h = real(one.at("h")), delta = real(one.at("delta"));
-    record.levels.push_back({by_h ? h : std::max(h, delta), real(one.at("error_linf"))});
+    record.levels.push_back({variable(one), real(one.at("error_linf"))});
     record.solutions.push_back(real(one.value("solution_linf", json(nullptr))));
     if (record.failure.empty()) record.failure = one.value("failure", "");
+  }
+  if (const auto reference = series.find("reference"); reference != series.end()) {
+    record.reference = {reference->at("N").get<std::int64_t>(), variable(*reference)};
+    if (record.failure.empty()) record.failure = reference->value("failure", "");
   }
   record.theory_order = real(theory.at("order"));
   record.expected = verdict(series.at("expected"));

@@ -3,6 +3,7 @@
 /// @file
 /// The JSON form of a study's results: written, and read back for the gate.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,15 @@ std::string json_text(const StudyResult& result, const Provenance& provenance);
 struct SeriesRecord {
   std::string study, label;
   std::vector<Level> levels;
-  std::vector<double> solutions;  ///< largest |u| of each level
+  std::optional<ReferenceLevel> reference;  ///< that errors are against; its run is done
+  std::vector<double> solutions;            ///< largest |u| of each level
   double theory_order;
   Verdict expected;
   std::string verdict;
   std::string failure;  ///< of the first case that could not be computed
   std::size_t cases_planned;
+
+  std::size_t cases_run() const { return levels.size() + (reference ? 1 : 0); }
 };
 
 /// What a result file says of one finding; `finding` is judged again from its points.

@@ -38,7 +38,7 @@ struct CaseResult {
   std::string blow_up;     ///< how the solution left all bounds, if it did; the errors are then NaN
   std::string failure;     ///< why there is no solution for another reason, if so; the errors are then NaN
   double error_linf = 0.0;
-  double solution_linf = 0.0;             ///< largest exact |u| at the particles, at first or at the end
+  double solution_linf = 0.0;  ///< largest exact |u|, or the reference's, at the particles, at first or at the end
   double error_l1 = 0.0, error_l2 = 0.0;  ///< weighted by cell width, divided by the period
 
   double seconds = 0.0;                          ///< wall time of the whole time loop, median over the repeats
@@ -61,7 +61,9 @@ struct CaseResult {
   StepsAgainstBound against_bound;
   LastState last;
 
-  std::vector<double> x, u, u_exact;  ///< fields at T, or the last finite ones of a run that was given up, shape [N]
+  /// Fields at T, or the last finite ones of a run that was given up, shape [N]. Where no solution is known, u_exact is
+  /// empty, or the reference at the particles.
+  std::vector<double> x, u, u_exact;
 };
 
 /// Runs a case `repeats` times and takes the median of its times.

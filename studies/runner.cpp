@@ -18,6 +18,7 @@
 #include "studies/input_error.hpp"
 #include "studies/journal.hpp"
 #include "studies/progress.hpp"
+#include "studies/reference.hpp"
 
 namespace acstudy {
 
@@ -207,7 +208,10 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   std::vector<Finished> unsaved(studies.size());
   std::vector<bool> finished(studies.size());
   const auto finish = [&](std::size_t s) {
-    for (SeriesResult& series : run.studies[s].series) series.judgement = judge_series(*series.series, series.results);
+    for (SeriesResult& series : run.studies[s].series) {
+      if (series.series->against_reference) compare_with_reference(*series.series, series.results);
+      series.judgement = judge_series(*series.series, series.results);
+    }
     write_results(options.out, run.studies[s], provenance[s]);
     finished[s] = true;
     unsaved[s] = {};

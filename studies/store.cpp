@@ -17,6 +17,7 @@
 #include "studies/checksum.hpp"
 #include "studies/h5.hpp"
 #include "studies/journal.hpp"
+#include "studies/reference.hpp"
 #include "studies/result_json.hpp"
 #include "studies/stored_parts.hpp"
 
@@ -73,13 +74,17 @@ struct Columns {
   std::vector<std::int64_t>& of(const std::string& name, std::int64_t) { return count[name]; }
 };
 
-void write_texts_and_fields(hid_t group, const std::string& key, const CaseResult& r) {
+void write_texts_and_fields(hid_t group, const std::string& key, const CaseResult& r, bool against_reference = false) {
   h5::write_text(group, "key", key);
   h5::write_text(group, "blow_up", r.blow_up);
   h5::write_text(group, "failure", r.failure);
   h5::write_column<double>(group, "x", r.x);
   h5::write_column<double>(group, "u", r.u);
-  h5::write_column<double>(group, "u_exact", r.u_exact);
+  if (!against_reference) {
+    h5::write_column<double>(group, "u_exact", r.u_exact);
+  } else if (!r.u_exact.empty()) {
+    h5::write_column<double>(group, "u_reference", r.u_exact);
+  }
 }
 
 void read_texts_and_fields(hid_t group, CaseResult& r) {
@@ -88,7 +93,35 @@ void read_texts_and_fields(hid_t group, CaseResult& r) {
   r.failure = h5::read_text(group, "failure");
   r.x = h5::read_column<double>(group, "x");
   r.u = h5::read_column<double>(group, "u");
-  r.u_exact = h5::read_column<double>(group, "u_exact");
+  // What a reference gives is found anew.
+  if (H5Lexists(group, "u_exact", H5P_DEFAULT) > 0) r.u_exact = h5::read_column<double>(group, "u_exact");
+}
+
+/// A column for each of the results of these cases, and their fields.
+void write_cases(hid_t group, const SeriesResult& result, const std::vector<std::size_t>& indices) {
+  const Series& series = *result.series;
+  Columns columns;
+  const auto visit = [&series](const Case& c, const CaseResult& r, auto&& column) {
+    column("N", c.N);
+    column("h", c.h);
+    column("delta", c.delta);
+    column("variable", series.variable(c.h, c.delta));
+    for_each_column(r, column);
+  };
+  // Without a completed case the columns are there all the same, and empty.
+  visit(series.cases.front(), CaseResult{}, [&](const char* name, auto value) { columns.of(name, value); });
+  for (const std::size_t i : indices) {
+    visit(series.cases[i], result.results[i],
+          [&](const char* name, auto value) { columns.of(name, value).push_back(value); });
+  }
+  for (const auto& [name, values] : columns.real) h5::write_column<double>(group, name, values);
+  for (const auto& [name, values] : columns.count) h5::write_column<std::int64_t>(group, name, values);
+
+  const h5::Handle cases = h5::create_group(group, "cases");
+  for (const std::size_t i : indices) {
+    const h5::Handle one = h5::create_group(cases, std::to_string(series.cases[i].N));
+    write_texts_and_fields(one, storage_key(series.cases[i]), result.results[i], series.against_reference);
+  }
 }
 
 void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
@@ -121,28 +154,9 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
   h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
   h5::write_column<double>(group, "pairwise", result.judgement.pairwise);
 
-  const auto indices = result.completed();
-  Columns columns;
-  const auto visit = [&series](const Case& c, const CaseResult& r, auto&& column) {
-    column("N", c.N);
-    column("h", c.h);
-    column("delta", c.delta);
-    column("variable", series.variable(c.h, c.delta));
-    for_each_column(r, column);
-  };
-  // Without a completed case the columns are there all the same, and empty.
-  visit(series.cases.front(), CaseResult{}, [&](const char* name, auto value) { columns.of(name, value); });
-  for (const std::size_t i : indices) {
-    visit(series.cases[i], result.results[i],
-          [&](const char* name, auto value) { columns.of(name, value).push_back(value); });
-  }
-  for (const auto& [name, values] : columns.real) h5::write_column<double>(group, name, values);
-  for (const auto& [name, values] : columns.count) h5::write_column<std::int64_t>(group, name, values);
-
-  const h5::Handle cases = h5::create_group(group, "cases");
-  for (const std::size_t i : indices) {
-    const h5::Handle one = h5::create_group(cases, std::to_string(series.cases[i].N));
-    write_texts_and_fields(one, storage_key(series.cases[i]), result.results[i]);
+  write_cases(group, result, result.completed_levels());
+  if (result.reference() != nullptr) {
+    write_cases(h5::create_group(group, "reference"), result, std::vector{series.levels()});
   }
 }
 
@@ -294,7 +308,9 @@ std::vector<char> h5_image(const StudyResult& result, const Provenance& provenan
     h5::write_number(scene, "period", study.scene->period());
     h5::write_number(scene, "T", study.scene->T());
     h5::write_text(scene, "c", text.c);
-    h5::write_text(scene, "u", text.u);
+    if (study.scene->solved()) h5::write_text(scene, "u", text.u);
+    if (text.u0) h5::write_text(scene, "u0", *text.u0);
+    if (text.f) h5::write_text(scene, "f", *text.f);
     if (text.b) h5::write_text(scene, "b", *text.b);
     if (text.flow) h5::write_text(scene, "flow", *text.flow);
   }
@@ -336,6 +352,28 @@ h5::Handle open_when_unlocked(const fs::path& file) {
   return {id, H5Fclose, "open it"};
 }
 
+/// What `write_cases` has written.
+void read_cases(hid_t group, StoredCases& stored) {
+  const h5::Handle cases = h5::open_group(group, "cases");
+  const auto N = h5::read_column<std::int64_t>(group, "N");
+  std::vector<CaseResult> results(N.size());
+  Columns columns;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    for_each_column(results[i], [&]<class T>(const char* column, T& value) {
+      // Files of older versions lack some. Their cases have other keys, so nothing is missed.
+      if (H5Lexists(group, column, H5P_DEFAULT) <= 0) return;
+      std::vector<T>& values = columns.of(column, T{});
+      if (values.empty()) values = h5::read_column<T>(group, column);
+      value = values.at(i);
+    });
+  }
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
+    read_texts_and_fields(one, results[i]);
+    stored.cases[h5::read_text(one, "key")] = std::move(results[i]);
+  }
+}
+
 /// Adds the content of the HDF5 file.
 void read_results(const fs::path& file, StoredCases& stored) {
   const h5::Handle root = open_when_unlocked(file);
@@ -351,24 +389,9 @@ void read_results(const fs::path& file, StoredCases& stored) {
     stored.provenance.emplace_back(name, h5::read_text(origin, name));
   const h5::Handle all = h5::open_group(root, "series");
   for (const std::string& name : h5::group_names(all)) {
-    const h5::Handle group = h5::open_group(all, name), cases = h5::open_group(group, "cases");
-    const auto N = h5::read_column<std::int64_t>(group, "N");
-    std::vector<CaseResult> results(N.size());
-    Columns columns;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      for_each_column(results[i], [&]<class T>(const char* column, T& value) {
-        // Files of older versions lack some. Their cases have other keys, so nothing is missed.
-        if (H5Lexists(group, column, H5P_DEFAULT) <= 0) return;
-        std::vector<T>& values = columns.of(column, T{});
-        if (values.empty()) values = h5::read_column<T>(group, column);
-        value = values.at(i);
-      });
-    }
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
-      read_texts_and_fields(one, results[i]);
-      stored.cases[h5::read_text(one, "key")] = std::move(results[i]);
-    }
+    const h5::Handle group = h5::open_group(all, name);
+    read_cases(group, stored);
+    if (H5Lexists(group, "reference", H5P_DEFAULT) > 0) read_cases(h5::open_group(group, "reference"), stored);
   }
   // Findings of other sources are not used again, so they need not be readable; older files have none.
   if (H5Lexists(root, "findings", H5P_DEFAULT) <= 0) return;
@@ -408,6 +431,16 @@ std::vector<std::size_t> SeriesResult::completed() const {
   return indices;
 }
 
+std::vector<std::size_t> SeriesResult::completed_levels() const {
+  std::vector<std::size_t> indices = completed();
+  if (reference() != nullptr) indices.pop_back();
+  return indices;
+}
+
+const CaseResult* SeriesResult::reference() const {
+  return series->against_reference && results.back().completed ? &results.back() : nullptr;
+}
+
 std::string not_computed(const std::string& failure) { return "a case could not be computed: " + failure; }
 
 std::vector<std::pair<std::string, double>> named_estimates(const Judgement& j) {
@@ -443,24 +476,30 @@ std::optional<double> solution_scale(std::span<const double> solutions) {
 Judgement judge_series(const Series& series, const std::vector<CaseResult>& results) {
   std::vector<Level> levels;
   std::vector<double> solutions;
-  for (std::size_t i = 0; i < results.size(); ++i) {
+  for (std::size_t i = 0; i < series.levels(); ++i) {
     const Case& c = series.cases[i];
     if (!results[i].completed) continue;
     levels.push_back({series.variable(c.h, c.delta), results[i].error_linf});
     solutions.push_back(results[i].solution_linf);
   }
-  Judgement judgement = judge(levels, series.theory.order, {.scale = solution_scale(solutions)});
+  Judgement judgement =
+      judge_errors(levels, series.reference_level(), series.theory.order, {.scale = solution_scale(solutions)});
   const auto first_with = [&](std::string CaseResult::*text) {
     return std::find_if(results.begin(), results.end(), [&](const CaseResult& r) { return !(r.*text).empty(); });
   };
   if (const auto failed = first_with(&CaseResult::failure); failed != results.end()) {
     judgement.verdict = Verdict::inconclusive;
     judgement.reason = not_computed(failed->failure);
+  } else if (series.against_reference && !results.back().completed) {
+    judgement.verdict = Verdict::inconclusive;
+    judgement.reason = "the reference has not been run";
   } else if (const auto unstable = first_with(&CaseResult::blow_up); unstable != results.end()) {
     judgement.reason += ": " + unstable->blow_up;
   }
   if (series.expected == Verdict::stable) {
-    for (const CaseResult& r : results) require_bounded(judgement, r.error_linf, r.solution_linf);
+    for (std::size_t i = 0; i < series.levels(); ++i) {
+      require_bounded(judgement, results[i].error_linf, results[i].solution_linf);
+    }
   }
   return judgement;
 }

@@ -38,6 +38,10 @@ struct SeriesResult {
   Judgement judgement;
   /// Indices of the cases that have a result.
   std::vector<std::size_t> completed() const;
+  /// The same without the reference.
+  std::vector<std::size_t> completed_levels() const;
+  /// That of the reference, where the series has one and its run is done; else nothing.
+  const CaseResult* reference() const;
   /// The verdict is the expected one, and no case is missing.
   bool as_expected() const {
     return completed().size() == series->cases.size() && meets(judgement.verdict, series->expected) &&

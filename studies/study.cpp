@@ -15,7 +15,7 @@ std::string Case::key() const {
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
       "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}",
-      text.period, text.T, text.c, text.b.value_or(""), text.u, text.flow.value_or(""), scheme.model,
+      text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""), scheme.model,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",
@@ -54,6 +54,12 @@ std::string scheme_label(const SchemeChoice& scheme, bool standing) {
   if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
   text += ", " + scheme.kernel.label();
   return scheme.control.empty() ? text : fmt::format("{} ({})", scheme.control, text);
+}
+
+std::optional<ReferenceLevel> Series::reference_level() const {
+  if (!against_reference) return std::nullopt;
+  const Case& c = cases.back();
+  return ReferenceLevel{c.N, variable(c.h, c.delta)};
 }
 
 std::string Series::label() const {

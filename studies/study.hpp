@@ -83,6 +83,12 @@ struct Theory {
   std::string statement;
 };
 
+/// The run that the errors of a series are against, as a level that is none.
+struct ReferenceLevel {
+  std::int64_t N;
+  double variable;  ///< of theory
+};
+
 /// One scheme along one path.
 struct Series {
   SchemeChoice scheme;
@@ -91,8 +97,12 @@ struct Series {
   bool nonlocal_source;
   Theory theory;
   Verdict expected;
-  std::vector<Case> cases;
+  std::vector<Case> cases;         ///< coarse to fine
+  bool against_reference = false;  ///< the last case is no level: the others' errors are against it
 
+  /// Number of cases that are judged.
+  std::size_t levels() const { return cases.size() - (against_reference ? 1 : 0); }
+  std::optional<ReferenceLevel> reference_level() const;
   /// Value of theory's variable at a case.
   double variable(double h, double delta) const { return theory.variable == "h" ? h : std::max(h, delta); }
   std::string label() const;

@@ -11,7 +11,38 @@
 
 namespace acstudy {
 
-std::shared_ptr<const Scene> read_scene(const Table& table) {
+namespace {
+
+/// reference, u0 and f of a scene whose solution is not known; true if it is one.
+bool read_unsolved(const Table& table, SceneText& text, Solution solution) {
+  const toml::node* const reference = table.find("reference");
+  if (reference == nullptr) {
+    for (const char* const key : {"u0", "f"}) {
+      const toml::node* const node = table.find(key);
+      if (node == nullptr) continue;
+      table.place(*node).fail(fmt::format(
+          "{} goes with reference = \"finest\", where no solution is known; u fixes it, so leave out one or the other",
+          key));
+    }
+    return false;
+  }
+  const Place at = table.place(*reference);
+  if (solution == Solution::needed) {
+    at.fail("a study of this kind needs the exact solution; write u = \"cos(x-t)\" in place of reference, u0 and f");
+  }
+  table.choice<int>("reference", *reference, {{"finest", 0}});
+  if (table.find("u") != nullptr) {
+    at.fail("u gives the exact solution, and reference is for scenes without one; leave out one or the other");
+  }
+  std::size_t offset = 0;
+  text.u0 = table.expression_text("u0", "u0 = \"cos(x)\", the values at t = 0", offset);
+  if (table.find("f") != nullptr) text.f = table.expression_text("f", "f = \"sin(x-t)\"", offset);
+  return true;
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution) {
   SceneText text;
   const toml::node* named = table.find("use");
   if (named != nullptr) {
@@ -25,7 +56,7 @@ std::shared_ptr<const Scene> read_scene(const Table& table) {
     }
     text = named_scenes()[found - known.begin()];
   } else {
-    table.allow({"use", "period", "T", "c", "b", "u", "flow"});
+    table.allow({"use", "period", "T", "c", "b", "u", "flow", "reference", "u0", "f"});
   }
   std::size_t offset = 0;
   if (named == nullptr) {
@@ -35,7 +66,10 @@ std::shared_ptr<const Scene> read_scene(const Table& table) {
     }
     text.period = table.expression_text("period", "period = \"2*pi\"", offset);
     text.c = table.expression_text("c", "c = \"cos(2*x)/3\"", offset);
-    text.u = table.expression_text("u", "u = \"cos(x-t)\"", offset);
+    if (!read_unsolved(table, text, solution)) {
+      text.u = table.expression_text(
+          "u", "u = \"cos(x-t)\", or reference = \"finest\" and u0 = \"cos(x)\" where no solution is known", offset);
+    }
     if (table.find("b") != nullptr) text.b = table.expression_text("b", "b = \"sin(x)\"", offset);
     if (table.find("flow") != nullptr) text.flow = table.expression_text("flow", "flow = \"x + t\"", offset);
   }
@@ -150,29 +184,6 @@ std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene) {
   return entries;
 }
 
-std::vector<std::int64_t> read_levels(const Table& table) {
-  const toml::node& node = table.need("N", "N = [160, 320, 640, 1280]");
-  const toml::array* const array = node.as_array();
-  if (array == nullptr || array->empty()) {
-    table.place(node).fail(fmt::format("N must be a list of particle numbers, not {}; write N = [160, 320, 640, 1280]",
-                                       array == nullptr ? Table::described(node) : "an empty list"));
-  }
-  std::vector<std::int64_t> N;
-  for (const toml::node& item : *array) {
-    const auto value = item.value_exact<std::int64_t>();
-    if (!value)
-      table.place(item).fail(fmt::format("N contains {}; every entry must be a whole number", Table::described(item)));
-    if (*value < 3)
-      table.place(item).fail(fmt::format("N = {}; a periodic interval needs at least 3 particles", *value));
-    if (*value > 100'000'000) table.place(item).fail(fmt::format("N = {}; the most is 100000000", *value));
-    if (!N.empty() && *value <= N.back()) {
-      table.place(item).fail(fmt::format("N = {} after {}; levels must go from coarse to fine", *value, N.back()));
-    }
-    N.push_back(*value);
-  }
-  return N;
-}
-
 std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene) {
   std::vector<Subject> subjects;
   for (const SchemeEntry& entry : read_schemes(root, *scene)) {
@@ -232,81 +243,6 @@ Sweep read_sweep(const Table& table, const Scene& scene) {
   return sweep;
 }
 
-Verdict read_expected(const Table& table, const toml::node& node) {
-  std::vector<std::pair<std::string, Verdict>> words;
-  for (int v = 0; v <= static_cast<int>(Verdict::inconclusive); ++v) {
-    words.emplace_back(name_of(static_cast<Verdict>(v)), static_cast<Verdict>(v));
-  }
-  words.emplace_back(name_of(Verdict::stable), Verdict::stable);
-  return table.choice<Verdict>("expect", node, words);
-}
-
-namespace {
-
-/// start = "uniform", or { name = "jittered", smallest_gap = 0.01, seed = 1 }, { name = "clustered", ... }.
-Start read_start(const Table& path, const toml::node& node) {
-  static const toml::table no_table;
-  const toml::table* const table = node.as_table();
-  const Table inner(table != nullptr ? *table : no_table, "start", path.file());
-  const char* const example = "{ name = \"jittered\", smallest_gap = 0.01, seed = 1 }";
-  const toml::node& name = table != nullptr ? inner.need("name", example) : node;
-  Start start{.kind = path.choice<Start::Kind>("start", name,
-                                               {{"uniform", Start::Kind::uniform},
-                                                {"jittered", Start::Kind::jittered},
-                                                {"clustered", Start::Kind::clustered}})};
-  switch (start.kind) {
-    case Start::Kind::uniform:
-      if (table != nullptr) inner.allow({"name"});
-      return start;
-    case Start::Kind::jittered:
-      inner.allow({"name", "smallest_gap", "seed"});
-      break;
-    case Start::Kind::clustered:
-      inner.allow({"name", "smallest_gap"});
-      break;
-  }
-  if (table == nullptr) path.place(node).fail(fmt::format("this start needs its smallest gap; write {}", example));
-  const toml::node& gap = inner.need("smallest_gap", example);
-  start.smallest_gap = inner.number("smallest_gap", gap);
-  if (!(start.smallest_gap > 0.0 && start.smallest_gap < 1.0)) {
-    inner.place(gap).fail(
-        fmt::format("smallest_gap = {}; in units of h it lies between 0 and 1: write {}", start.smallest_gap, example));
-  }
-  if (const toml::node* const seed = inner.find("seed")) {
-    start.seed = static_cast<unsigned>(inner.whole("seed", *seed, 0, 1'000'000'000));
-  }
-  return start;
-}
-
-}  // namespace
-
-PathChoice read_path(const Table& table) {
-  table.allow({"name", "delta", "N", "source", "expect", "order", "start"});
-  const toml::node& name = table.need("name", "name = \"delta = 4h\"");
-  PathChoice path{.name = table.text("name", name, "name = \"delta = 4h\""),
-                  .delta = table.expression("delta", "delta = \"4*h\"", {"h", "N"}),
-                  .N = read_levels(table),
-                  .nonlocal_source = table.choice<bool>("source", table.need("source", "source = \"local\""),
-                                                        {{"local", false}, {"nonlocal", true}}),
-                  .expect = std::nullopt,
-                  .order = std::nullopt};
-  if (path.name.empty()) table.place(name).fail("a path needs a name, for example \"delta = 4h\"");
-  if (const toml::node* const expect = table.find("expect")) {
-    path.expect = read_expected(table, *expect);
-  }
-  if (const toml::node* const start = table.find("start")) {
-    path.start = read_start(table, *start);
-    path.at_start = table.place(*start);
-  }
-  if (const toml::node* const order = table.find("order")) {
-    path.order = table.number("order", *order);
-    if (!std::isfinite(*path.order) || *path.order < 0.0) {
-      table.place(*order).fail(fmt::format("order = {}; an order must be finite and not negative", *path.order));
-    }
-  }
-  return path;
-}
-
 namespace {
 
 Stepping read_time(const Table& time) {
@@ -356,8 +292,8 @@ SourceRule read_source_rule(const Table& root) {
 
 }  // namespace
 
-std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& study) {
-  study.scene = read_scene(root.sub_table("scene"));
+std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& study, Solution solution) {
+  study.scene = read_scene(root.sub_table("scene"), solution);
   study.source_rule = read_source_rule(root);
   const toml::node* const several = root.find("time");
   if (several == nullptr || !several->is_array()) return {read_time(root.sub_table("time"))};
@@ -453,6 +389,7 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
                 .expected = Verdict::confirmed,
                 .cases = {}};
   series.stepping = time.label;
+  series.against_reference = path.against_reference;
   for (const std::int64_t N : path.N) {
     const double period = study.scene->period(), gap = path.start.smallest_gap * period / static_cast<double>(N);
     if (period + gap == period) {
@@ -464,10 +401,11 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
     const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
     series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta, path.start));
   }
-  const Case& finest = series.cases.back();
+  const Case& finest = series.cases[series.levels() - 1];
   const bool fixed = finest.delta == series.cases.front().delta && series.cases.size() > 1;
-  series.theory =
-      theory_for(entry.scheme, study.scene->standing(), path.nonlocal_source, fixed, finest.delta < finest.h);
+  // The limit of the reference at a fixed horizon is the nonlocal model with its source.
+  series.theory = theory_for(entry.scheme, study.scene->standing(),
+                             path.nonlocal_source || (fixed && path.against_reference), fixed, finest.delta < finest.h);
   if (path.order) {
     series.theory.order = *path.order;
     series.theory.statement = "given by the study";

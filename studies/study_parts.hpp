@@ -14,8 +14,11 @@
 
 namespace acstudy {
 
+/// Whether a study can do without an exact solution.
+enum class Solution { needed, may_be_unknown };
+
 /// [scene]: a named scene, or the fields themselves.
-std::shared_ptr<const Scene> read_scene(const Table& table);
+std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution = Solution::needed);
 /// The same for studies of an operator, which is nothing where c - b is zero everywhere.
 std::shared_ptr<const Scene> read_scene_with_advection(const Table& table);
 
@@ -57,8 +60,10 @@ struct PathChoice {
   std::optional<double> order;  ///< in place of theory's
   Start start = {};
   Place at_start = {};
+  bool against_reference = false;  ///< the last of N is the reference and no level
 };
-PathChoice read_path(const Table& table);
+/// @param solved  false: no solution is known, so errors are against a reference
+PathChoice read_path(const Table& table, bool solved = true);
 
 /// Fails unless 0 < delta < period / 2.  @param at  the place to blame
 void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at);
@@ -78,7 +83,8 @@ struct Stepping {
 /// [scene], [time] and [source] of a study that runs cases; what is read is set in `study`.
 Stepping read_problem(const Table& root, Study& study);
 /// The same where [[time]] may stand several times.
-std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& study);
+std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& study,
+                                                  Solution solution = Solution::needed);
 
 /// The case of one scheme at N particles and the horizon `delta`.  @param at  the place to blame for a bad horizon
 Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,

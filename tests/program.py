@@ -57,6 +57,8 @@ def edit(text, *changes):
 
 
 INLINE = edit(STUDY, (USE, FIELDS))
+# The same where no solution is known: errors are against the finest run.
+UNSOLVED = edit(INLINE, ('u = "cos(x-t)"', 'reference = "finest"\nu0 = "cos(x)"\nf = "sin(x-t)"'))
 
 
 class ProgramTest(unittest.TestCase):

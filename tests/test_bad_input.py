@@ -4,7 +4,7 @@ import os
 import tempfile
 import unittest
 
-from tests.program import FIELDS, INLINE, MODEL_II, STUDY, USE, ProgramTest, edit
+from tests.program import FIELDS, INLINE, MODEL_II, STUDY, UNSOLVED, USE, ProgramTest, edit
 
 KERNEL = 'kernel = "inverse"'
 DELTA = '"4*h"'
@@ -52,6 +52,18 @@ def inline(*changes):
     return bad(*changes, of=INLINE)
 
 
+def unsolved(*changes):
+    return bad(*changes, of=UNSOLVED)
+
+
+def given(key):
+    return (f'{key} goes with reference = "finest", where no solution is known; u fixes it, so leave out one or the '
+            "other")
+
+
+NEEDED = ('a study of this kind needs the exact solution; write u = "cos(x-t)" in place of reference, u0 and f')
+
+
 # What is wrong: (the study, the message). The message points at the character behind the @, which the study that the
 # program reads does not have.
 STUDIES = {
@@ -63,7 +75,8 @@ STUDIES = {
     "unknown key in [study]": (bad(("title =", "@author =")),
                                'unknown key "author" in [study]; known keys: name, title, kind'),
     "unknown key in [scene]": (inline(('T = 1', '@time = 1')),
-                               'unknown key "time" in [scene]; known keys: use, period, T, c, b, u, flow'),
+                               'unknown key "time" in [scene]; known keys: use, period, T, c, b, u, flow, '
+                               'reference, u0, f'),
     "field beside a named scene": (bad((USE, USE + '\n@c = "1"')), 'unknown key "c" in [scene]; known keys: use, T'),
     "unknown key in [[scheme]]": (bad((KERNEL, KERNEL + "\n@alpha = 1")),
                                   'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, mu'),
@@ -72,8 +85,8 @@ STUDIES = {
     "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step, '
                               'safety, bound, expect'),
     "unknown key in [[path]]": (bad((SOURCE, '@target = "local"')),
-                                'unknown key "target" in [[path]]; known keys: name, delta, N, source, expect, order, '
-                                'start'),
+                                'unknown key "target" in [[path]]; known keys: name, delta, N, source, reference, '
+                                'expect, order, start'),
     "unknown key in [source]": (STUDY + '[source]\n@method = "gauss"\n',
                                 'unknown key "method" in [source]; known keys: rule'),
     "no [study]": ("@" + STUDY[STUDY.index("[scene]"):], "the study has no [study]; add it"),
@@ -95,7 +108,37 @@ STUDIES = {
     "no velocity": (inline(("[scene]", "@[scene]"), ('c = "cos(2*x)/3"\n', "")),
                     '[scene] has no "c"; write, for example, c = "cos(2*x)/3"'),
     "no solution": (inline(("[scene]", "@[scene]"), ('u = "cos(x-t)"\n', "")),
-                    '[scene] has no "u"; write, for example, u = "cos(x-t)"'),
+                    '[scene] has no "u"; write, for example, u = "cos(x-t)", or reference = "finest" and u0 = "cos(x)" '
+                    "where no solution is known"),
+    "a solution and a reference": (unsolved(('reference = "', 'u = "cos(x-t)"\nreference = @"')),
+                                   "u gives the exact solution, and reference is for scenes without one; leave out one "
+                                   "or the other"),
+    "initial values beside a solution": (inline(('u = "cos(x-t)"', 'u = "cos(x-t)"\nu0 = @"cos(x)"')), given("u0")),
+    "a source beside a solution": (inline(('u = "cos(x-t)"', 'u = "cos(x-t)"\nf = @0')), given("f")),
+    "a reference that is none": (unsolved(('"finest"', '@"finer"')), 'reference = "finer"; it must be one of "finest"'),
+    "no initial values": (unsolved(("[scene]", "@[scene]"), ('u0 = "cos(x)"\n', "")),
+                          '[scene] has no "u0"; write, for example, u0 = "cos(x)", the values at t = 0'),
+    "initial values in t": (unsolved(('"cos(x)"', '"cos(x-@t)"')), 'unknown name "t"; it may use x, pi, e and the usual functions'),
+    "initial values not periodic": (unsolved(('"cos(x)"', '"@cos(x/2)"')),
+                                     "u0 is not periodic: u0(x + 6.28319) and u0(x) differ by 2"),
+    "a source not periodic": (unsolved(('"sin(x-t)"', '"@sin(x/2)"')), "f is not periodic: f(x + 6.28319) and f(x) differ by 2"),
+    "a nonlocal source without a solution": (
+        unsolved((SOURCE, 'source = @"nonlocal"')),
+        'source = "nonlocal" makes a known u solve the nonlocal model; here the source is the scene\'s f, so write '
+        '"local" or leave it out'),
+    "a path's reference where the solution is known": (
+        bad((SOURCE, SOURCE + "\nreference = @1280")),
+        'a reference goes with reference = "finest" under [scene]; u is known, so leave it out'),
+    "a reference that is no finer": (unsolved((SOURCE, "reference = @64")),
+                                     "reference = 64; it must be a whole number from 65 to 100000000"),
+    "nothing beside the reference": (unsolved((LEVELS, "@[16]")),
+                                     "N = [16]; the finest level is the reference, so nothing is left to judge: write "
+                                     "more levels"),
+    "a kind that needs a solution": (unsolved(("[study]", '[study]\nkind = "map"'), ('"finest"', '@"finest"'),
+                                              (PATH_TABLE, "[map]\ndelta = [0.1, 0.2, 0.3, 0.4]\nN = [16, 32, 64, 128]\n"
+                                               'sources = ["local"]\n')), NEEDED),
+    "operators without a solution": (edit(SWEEP, (USE, FIELDS), ('u = "cos(x-t)"', 'reference = @"finest"')), NEEDED),
+    "digits without a solution": (edit(DIGITS, (USE, FIELDS), ('u = "cos(x-t)"', 'reference = @"finest"')), NEEDED),
     "no fields": (bad(("[scene]\n" + USE, "@[scene]")),
                   '[scene] names no scene and gives no fields; write use = "lee-du-2019", or period, T, c and u'),
     "no model": (bad(("[[scheme]]\nmodel = 1", "@[[scheme]]")),
@@ -405,7 +448,7 @@ class BadStudy(ProgramTest):
             self.assert_bad_input(self.acstudy("explain", "bad.toml"), f"bad.toml:{place}")
 
     def test_the_studies_that_the_mistakes_are_made_in_are_good(self):
-        for text in (STUDY, INLINE, DIGITS, edit(STUDY, MODEL_II), edit(INLINE, (FIELDS, USE))):
+        for text in (STUDY, INLINE, UNSOLVED, DIGITS, edit(STUDY, MODEL_II), edit(INLINE, (FIELDS, USE))):
             self.write("good.toml", text)
             done = self.acstudy("explain", "good.toml")
             self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -251,6 +251,19 @@ class Figures(ReportTest):
         self.assertIn("4 of 4 levels not finite", images(alone)["svg"].decode())
         self.assertIn("nan", page.html([study], {}))
 
+    def test_differences_to_a_finer_run_are_not_called_errors(self):
+        path = write(self.folder, "unsolved", series())
+        with h5py.File(path, "r+") as file:
+            del file["scene"].attrs["u"]
+            file["scene"].attrs["u0"] = "exp(sin(x))"
+        study = results.read_study(path)
+        drawing = figures.drawings(study, figures.scheme_styles([study]))[0]
+        self.assertIn("differences to a finer run", drawing.caption)
+        self.assertIn("max-norm difference to a finer run", images(study)["svg"].decode())
+        self.assertIn("initial values u0", page.html([study], {}))
+        # Nor do they stand beside errors over run time.
+        self.assertIsNone(figures.cost_figure([study], figures.scheme_styles([study])))
+
     def test_a_study_without_series_has_no_figure(self):
         study = results.read_study(write(self.folder, "fig1"))
         self.assertIsNone(figures.error_figure(study, {}))

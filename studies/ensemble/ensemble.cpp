@@ -13,7 +13,6 @@
 #include "solver/vector/clones.hpp"
 #include "studies/ensemble/shared_particles.hpp"
 #include "studies/ensemble/sweep_group.hpp"
-#include "studies/operator.hpp"
 #include "studies/outcome.hpp"
 #include "studies/scheme.hpp"
 #include "studies/stopwatch.hpp"
@@ -47,8 +46,8 @@ std::string ensemble_key(const Case& c) {
   const SceneText& text = c.scene->text();
   const std::string bound =
       c.step.bound == StepRule::Bound::none ? "" : fmt::format("|{:.17g}", c.step.safety * c.lemma_bound(1.0));
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}{}|{}{:.17g}", text.period, text.T, text.c, text.b.value_or(""), text.u,
-                     text.flow.value_or(""), c.integrator->name, c.N, c.steps, bound, c.start.label(),
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}{}|{}{:.17g}", text.period, text.T, text.c, text.b.value_or(""),
+                     text.solution(), text.flow.value_or(""), c.integrator->name, c.N, c.steps, bound, c.start.label(),
                      c.start.smallest_gap);
 }
 
@@ -76,12 +75,13 @@ ACSTUDY_VECTOR_CLONES double apply_stage(double weight, double dt, const double*
 /// The larger of two sizes; NaN if one is.
 double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
 
-/// A manufactured source at all particles, by its series if it has one.
+/// A source at all particles, by its series if it has one; zero, and never computed, where the scene has none.
 class ParticleSource {
  public:
   ParticleSource(const Scene& scene, const SourceSeries::MakeSource& make, bool sided, bool may_be_series,
                  std::size_t count)
       : f_(count) {
+    if (scene.sourceless()) return;
     // More samples than particles would be no saving.
     if (may_be_series) series_ = SourceSeries::find(scene, make, sided, std::min<std::size_t>(count / 2, 96));
     if (!series_) direct_ = make(Look::upwind);
@@ -99,7 +99,7 @@ class ParticleSource {
     laps.end_of(seconds);
   }
   void evaluate_directly(double t, const SharedParticles& particles) {
-    if (series_) return;
+    if (!direct_) return;
     if (placed_ != particles.times_moved()) direct_->place(particles.x.values());
     placed_ = particles.times_moved();
     direct_->evaluate(t, f_);
@@ -107,7 +107,7 @@ class ParticleSource {
 
   const double* f() const { return f_.data(); }
   std::int64_t quadrature_points() const {
-    return series_ ? series_->quadrature_points() : direct_->quadrature_points();
+    return series_ ? series_->quadrature_points() : direct_ ? direct_->quadrature_points() : 0;
   }
 
   double seconds = 0.0;
@@ -224,7 +224,7 @@ class Ensemble {
     PerThread<double> largest(team_, 0.0);
     particles_->move(0.0, [&](const Piece& piece, Laps&) {
       const auto u = piece.of(members_.front().values.u.values());
-      scene_.u(piece.of(particles_->x.values()), 0.0, u);
+      scene_.initial(piece.of(particles_->x.values()), u);
       for (const double value : u) largest[piece] = larger(largest[piece], std::abs(value));
       for (Member& m : std::span(members_).subspan(1)) {
         std::copy(u.begin(), u.end(), piece.of(m.values.u.values()).begin());
@@ -247,7 +247,7 @@ class Ensemble {
     if (!c.nonlocal_source) {
       if (!local_source_) {
         local_source_.emplace(
-            scene_, [&](Look) { return local_source(scene_); }, false, true, count);
+            scene_, [&](Look) { return local_source(scene_); }, false, scene_.solved(), count);
       }
       m.source = &*local_source_;
       return;
@@ -380,11 +380,7 @@ class Ensemble {
       m.bound.step(n, step);
       count_step(m.result, n, step);
       m.t = step.end;
-      const auto exact_size = [&] {
-        std::vector<double> exact(particles_->size());
-        scene_.u(particles_->positions(step.end), step.end, exact);
-        return max_norm(exact);
-      };
+      const auto exact_size = [&] { return scene_.solution_size(particles_->positions(step.end), step.end); };
       const double largest = m.largest.all(larger);
       m.running = m.growth->makes_sense(n, step.end, m.values.u.values(), largest, exact_size);
       if (!m.running) {

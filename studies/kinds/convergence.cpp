@@ -9,13 +9,13 @@ namespace acstudy {
 
 void read_convergence(const Table& root, Study& study) {
   root.allow({"study", "scene", "scheme", "time", "path", "source"});
-  const std::vector<Stepping> steppings = read_problem_with_steppings(root, study);
+  const std::vector<Stepping> steppings = read_problem_with_steppings(root, study, Solution::may_be_unknown);
 
   const std::vector<Table> path_tables = root.array_of_tables("path");
   std::vector<PathChoice> paths;
   std::set<std::string> names;
   for (const Table& table : path_tables) {
-    paths.push_back(read_path(table));
+    paths.push_back(read_path(table, study.scene->solved()));
     if (!names.insert(paths.back().name).second) {
       table.place(*table.find("name"))
           .fail(fmt::format("a second path named \"{}\"; names must differ", paths.back().name));

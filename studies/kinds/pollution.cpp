@@ -106,6 +106,11 @@ void read_pollution(const Table& root, Study& study) {
           fmt::format("studies contains {}; every entry must be the name of a study file", Table::described(item)));
     }
     const Study named = read_named(*name, study.file, table.place(item));
+    if (!named.scene->solved()) {
+      table.place(item).fail(fmt::format(
+          "studies contains \"{}\", whose scene has a reference in place of u; an error has parts only if it is known",
+          *name));
+    }
     SceneText text = named.scene->text();
     text.name.clear();
     text.u = fmt::format("{}*({})", other_unit, text.u);

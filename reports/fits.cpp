@@ -293,7 +293,9 @@ CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
   CorrectedLaw united = best.law;
   united.low = united.high = united.order;
   const bool drift = explains_more(levels, fit_power_law(levels).residual, best.law.residual, 3, drift_level);
-  const double t = student(1.0 - (drift ? 1.3 : 2.0) * miss, freedom(levels, 3)), free = freedom(levels, 3);
+  const bool few = levels.size() == 4;
+  const double part_of_miss = drift ? (few ? 1.9 : 1.2) : (few ? 3.2 : 2.2);
+  const double t = student(1.0 - part_of_miss * miss, freedom(levels, 3)), free = freedom(levels, 3);
   const auto unite = [&](const BestLaw& one) {
     const double bound = one.law.residual + t * t * (one.law.residual + known_squares(levels)) / free;
     const Estimate own = profile(logs, one, bound);
@@ -304,7 +306,7 @@ CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
   for (const double q : united_exponents) {
     if (q == best.law.q) continue;
     const BestLaw one = best_law(logs, q, v_0);
-    if (!explains_more(levels, one.law.residual, best.law.residual, 3, 0.2 * miss)) unite(one);
+    if (!explains_more(levels, one.law.residual, best.law.residual, 3, 0.1 * miss)) unite(one);
   }
   return united;
 }

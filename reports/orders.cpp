@@ -41,6 +41,8 @@ constexpr double slowest_correction = 0.4;
 
 /// An error that falls with a higher order than this has not stopped falling.
 constexpr double slowest_fall = 0.45;
+/// Pairwise orders this close to those of a law are its own.
+constexpr double closest_following = 0.015;
 /// What condemns must not be wrong more often than this.
 constexpr double firm_miss = 0.01, firm_level = 0.02;
 /// An order without a drift that is farther than this from theory's is no accident.
@@ -332,8 +334,13 @@ class Evidence {
   }
 
   Answer dwindles() const {
-    if (theory_ == 0.0 || !has_floor()) return std::nullopt;
+    const bool fades = falling() && last_ < 0.5 * slowest_fall && last_ < 0.5 * pairwise_.front() && !approaching();
+    if (theory_ == 0.0 || (!has_floor() && !fades)) return std::nullopt;
     if (at_round_off()) return floored();
+    if (!has_floor()) {
+      return Conclusion{Verdict::stagnates, fmt::format("the error stops falling at {:.3g}: pairwise orders {}",
+                                                        all_.back().error, pairs())};
+    }
     return Conclusion{Verdict::stagnates,
                       fmt::format("the error stops falling: pairwise orders {}, and error = C v^{:.2f} + {:.3g} fits",
                                   pairs(), result_.floored.order, result_.floored.F)};
@@ -365,8 +372,9 @@ class Evidence {
     const bool by_chance = std::abs(last_ - theory_) <= std::min(2.0 * scatter_of_last(), widest_scatter);
     const bool leaves =
         std::abs(finest - theory_) > (drifts() || !near(last_) ? order_tolerance : extrapolation_tolerance);
-    const bool extrapolates_elsewhere = result_.corrected.low > theory_ + extrapolation_tolerance ||
-                                        result_.corrected.high < theory_ - extrapolation_tolerance;
+    const bool extrapolates_elsewhere = (result_.corrected.low > theory_ + extrapolation_tolerance ||
+                                         result_.corrected.high < theory_ - extrapolation_tolerance) &&
+                                        !follows(fit_correction_of(inside_, theory_));
     if (extrapolates_elsewhere || leaves || (!near(last_) && !by_chance)) return std::nullopt;
     return Conclusion{Verdict::confirmed,
                       fmt::format("{} agrees with theory's {:g}; pairwise {}", estimates(), theory_, pairs())};
@@ -384,6 +392,16 @@ class Evidence {
   /// The levels fit theory's order with some correction as well as they fit any order.
   bool fits_theory(const CorrectedLaw& correction, double level = 0.05) const {
     return !explains_more(inside_, correction.residual, result_.corrected.residual, 3, level);
+  }
+
+  /// The pairwise orders are those of the law.
+  bool follows(const CorrectedLaw& law) const {
+    if (inside_.size() < 4 || law.q < slowest_correction) return false;
+    for (std::size_t i = 0; i < pairwise_.size(); ++i) {
+      const double order = law.order_between(inside_[i].variable, inside_[i + 1].variable);
+      if (!(std::abs(pairwise_[i] - order) <= closest_following)) return false;
+    }
+    return true;
   }
 
   Answer moves_toward_theory() const {
@@ -405,7 +423,9 @@ class Evidence {
     }
     if (!agrees || (!near(last_) && std::abs(result_.extrapolated - theory_) > extrapolation_tolerance))
       return std::nullopt;
-    if (!(result_.corrected.half_width() <= widest_half_width)) {
+    // Few levels leave the interval wide; the way to theory's order may be sharp all the same.
+    if (!(result_.corrected.half_width() <= widest_half_width) &&
+        !(result_.window.first == 0 && approaching() && follows(correction))) {
       return inconclusive(
           fmt::format("pairwise orders {} move toward {:g}, but the interval of {} is too wide to judge", pairs(),
                       theory_, estimates()));
@@ -460,7 +480,10 @@ class Evidence {
     const bool unsettled = (drifts() && beyond_law > scatter_of_last() && (last_ - before) * side < 0.0) ||
                            (drifts() && scatter_of_last() > widest_scatter) ||
                            (side < 0.0 && before - last_ > widest_fall);
-    const bool firm = theory_ == 0.0 ? falls_without_floor() : one_side && !unsettled && (straight || bent);
+    const bool away = departs_everywhere() &&
+                      (side < 0.0 ? falling() : std::is_sorted(pairwise_.begin(), pairwise_.end())) &&
+                      std::abs(last_ - pairwise_.front()) > extrapolation_tolerance;
+    const bool firm = theory_ == 0.0 ? falls_without_floor() : one_side && !unsettled && (straight || bent || away);
     if (!firm) {
       return inconclusive(fmt::format("{} neither agrees with theory's {:g} nor excludes it; pairwise {}", estimates(),
                                       theory_, pairs()));

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_form.hpp"
 #include "studies/study_file.hpp"
 
 namespace acstudy {
@@ -219,7 +219,7 @@ std::string as_json(const Fit& fit) {
   for (const Level& level : fit.levels) {
     out["levels"].push_back({{"variable", level.variable}, {"error", level.error}, {"weight", level.weight}});
   }
-  return out.dump(2) + "\n";  // the library writes null for what is not finite
+  return json_form::pretty(out) + "\n";
 }
 
 }  // namespace acstudy

@@ -76,43 +76,52 @@ void define_functions(mu::Parser& parser, std::index_sequence<i...>) {
 std::string explain(const mu::ParserError& error, const std::vector<std::string>& variables) {
   std::string token = error.GetToken();
   token.erase(token.find_last_not_of(' ') + 1);
+  const std::string shown = in_quotes(token);
   const auto functions = Expression::function_names();
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN: {
       if (std::find(functions.begin(), functions.end(), token) != functions.end()) {
-        return "the function \"" + token + "\" needs its argument in parentheses";
+        return "the function " + shown + " needs its argument in parentheses";
       }
       std::string names;
       for (const auto& name : variables) names += name + ", ";
-      return "unknown name \"" + token + "\"; it may use " + names + "pi, e and the usual functions";
+      return "unknown name " + shown + "; it may use " + names + "pi, e and the usual functions";
     }
     case mu::ecUNEXPECTED_EOF:
       return "the expression ends too early";
     case mu::ecMISSING_PARENS:
       return "a closing parenthesis is missing";
     case mu::ecUNEXPECTED_PARENS:
-      return "unexpected parenthesis \"" + token + "\"";
+      return "unexpected parenthesis " + shown;
     case mu::ecUNEXPECTED_OPERATOR:
-      return "unexpected operator \"" + token + "\"";
+      return "unexpected operator " + shown;
     case mu::ecUNEXPECTED_VAL:
     case mu::ecUNEXPECTED_VAR:
-      return "unexpected value \"" + token + "\"; an operator is missing before it";
+      return "unexpected value " + shown + "; an operator is missing before it";
     case mu::ecUNEXPECTED_FUN:
-      return "unexpected function \"" + token + "\"; an operator is missing before it";
+      return "unexpected function " + shown + "; an operator is missing before it";
     case mu::ecUNEXPECTED_ARG_SEP:
       return "unexpected comma";
     case mu::ecTOO_MANY_PARAMS:
-      return "too many arguments for \"" + token + "\"";
+      return "too many arguments for " + shown;
     case mu::ecTOO_FEW_PARAMS:
-      return "too few arguments for \"" + token + "\"";
+      return "too few arguments for " + shown;
     case mu::ecEMPTY_EXPRESSION:
       return "the expression is empty";
     default:
-      return "syntax error near \"" + token + "\"";
+      return "syntax error near " + shown;
   }
 }
 
 }  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t whole = 80;
+  std::size_t shown = 60;
+  if (text.size() <= whole) return "\"" + std::string(text) + "\"";
+  while (shown > 0 && (static_cast<unsigned char>(text[shown]) & 0xC0U) == 0x80U) --shown;  // no part of a UTF-8 letter
+  return "\"" + std::string(text.substr(0, shown)) + "...\" (" + std::to_string(text.size()) + " letters)";
+}
 
 std::vector<std::string> Expression::function_names() {
   std::vector<std::string> names;
@@ -123,6 +132,10 @@ std::vector<std::string> Expression::function_names() {
 
 Expression::Expression(const std::string& text, const std::vector<std::string>& variables) : text_(text) {
   if (text.find_first_not_of(" \t\n\r") == std::string::npos) throw ExpressionError(0, "the expression is empty");
+  if (text.size() > most_letters) {
+    throw ExpressionError(0, "the expression " + in_quotes(text) + " is too long; the most is " +
+                                 std::to_string(most_letters) + " letters: write a shorter one");
+  }
   if (const auto at = text.find_first_of("?:=<>!&|,;"); at != std::string::npos && text[at] != ',') {
     throw ExpressionError(at, std::string("unexpected \"") + text[at] + "\"; an expression has no conditions");
   }

@@ -14,6 +14,9 @@
 
 namespace acstudy {
 
+/// A text in quotes for a message: of one with more than 80 letters the first 60, and how many there are.
+std::string in_quotes(std::string_view text);
+
 /// A text that is no expression; `position` is the offset of the offending character.
 class ExpressionError : public std::runtime_error {
  public:
@@ -28,10 +31,14 @@ class ExpressionError : public std::runtime_error {
 /// Immutable after construction, so shared freely between threads.
 class Expression {
  public:
-  /// @param text       operators + - * / ^, parentheses, numbers, pi, e, and the functions of `function_names()`
+  /// @param text       operators + - * / ^, parentheses, numbers, pi, e, and the functions of `function_names()`; at
+  /// most
+  ///                   `most_letters` letters
   /// @param variables  the names that may occur, at most 4
   /// @throws ExpressionError
   Expression(const std::string& text, const std::vector<std::string>& variables);
+
+  static constexpr std::size_t most_letters = 10'000;
 
   const std::string& text() const { return text_; }
   bool depends_on(std::size_t variable) const { return (tape_[result_].depends >> variable & 1U) != 0; }

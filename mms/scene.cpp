@@ -46,6 +46,65 @@ std::vector<double> samples(double period) {
   return x;
 }
 
+/// The other points at which fields are looked at: those where uniform particles start at most of the usual N.
+std::vector<double> usual_starts(double period) {
+  constexpr int count = 2560;
+  std::vector<double> x(count);
+  for (int i = 0; i < count; ++i) x[i] = period * i / count;
+  return x;
+}
+
+std::string at_place(double x, double t, const Expression& field) {
+  return fmt::format("x = {:.6g}{}", x, field.depends_on(1) ? fmt::format(", t = {:.6g}", t) : "");
+}
+
+/// Fails if the field or one of its derivatives is not finite at one of the points.
+void check_finite(const char* name, const Expression& field, std::span<const double> x, double t) {
+  std::vector<double> value(x.size()), by_x(x.size()), by_t(field.depends_on(1) ? x.size() : 0);
+  field.evaluate(x, {t}, {value, by_x, by_t});
+  const auto check = [&](const std::vector<double>& values, const std::string& what, const char* must) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isfinite(values[i])) continue;
+      const double shown = std::isnan(values[i]) ? std::abs(values[i]) : values[i];
+      throw SceneError(name, 0, fmt::format("{} is {} at {}; {}", what, shown, at_place(x[i], t, field), must));
+    }
+  };
+  constexpr const char* smooth = "sources are made of it: write a field that has a derivative there";
+  check(value, name, "it must be finite everywhere");
+  check(by_x, fmt::format("the derivative of {} by x", name), smooth);
+  check(by_t, fmt::format("the derivative of {} by t", name), smooth);
+}
+
+/// Fails if the field has a pole where it is largest: if it still grows where no particles can tell places apart.
+void check_bounded(const char* name, const Expression& field, std::span<const double> x, double t, double period) {
+  const auto size = [&](double at) {
+    double value = 0.0;
+    field.evaluate({&at, 1}, {t}, {{&value, 1}, {}, {}});
+    return std::abs(value);
+  };
+  std::vector<double> values(x.size());
+  field.evaluate(x, {t}, {values, {}, {}});
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto top = std::max_element(values.begin(), values.end(), smaller);
+  const double here = x[static_cast<std::size_t>(top - values.begin())];
+  // Golden sections of the two cells around it, down to the last digits.
+  double left = here - period / static_cast<double>(x.size()), right = here + period / static_cast<double>(x.size());
+  while (right - left > 4e-16 * period) {
+    const double part = (right - left) / (1.0 + std::numbers::phi), a = left + part, b = right - part;
+    if (!(left < a && a < b && b < right)) break;
+    (size(a) < size(b) ? left : right) = size(a) < size(b) ? a : b;
+  }
+  const double peak = size(here) > size(left) ? here : left, most = size(peak);
+  constexpr double apart = 1e-6, too_much = 1e3;
+  const double beside = std::max(size(peak - apart * period), size(peak + apart * period));
+  if (std::isfinite(most) && most <= too_much * beside) return;
+  throw SceneError(
+      name, 0,
+      fmt::format("{} has a pole at {}: it grows to {:.3g} there, from {:.3g} at {:.1g} beside; write a field "
+                  "that is bounded",
+                  name, at_place(peak, t, field), most, beside, apart * period));
+}
+
 }  // namespace
 
 std::string SceneText::solution() const { return u0 ? fmt::format("u0={}|f={}", *u0, f.value_or("0")) : u; }
@@ -66,16 +125,30 @@ Scene::Scene(SceneText text)
     check_flow();
   }
   check_periodic("c", c_);
+  const std::vector<double> starts = usual_starts(period_);
+  const auto check = [&](const char* name, const Expression& field) {
+    for (const double t : {0.0, 0.37 * T_, T_}) {
+      check_finite(name, field, samples(period_), t);
+      check_finite(name, field, starts, t);
+      check_bounded(name, field, starts, t, period_);
+      if (!field.depends_on(1)) break;
+    }
+  };
+  check("c", c_);
+  if (b_) check("b", *b_);
   if (!text_.u0) {
     u_ = compile("u", text_.u, {"x", "t"});
     check_periodic("u", *u_);
+    check("u", *u_);
     return;
   }
   u0_ = compile("u0", *text_.u0, {"x"});
   check_periodic("u0", *u0_);
+  check("u0", *u0_);
   if (!text_.f) return;
   f_ = compile("f", *text_.f, {"x", "t"});
   check_periodic("f", *f_);
+  check("f", *f_);
   if (f_->is_constant() && (*f_)({0.0, 0.0}) == 0.0) f_.reset();
 }
 

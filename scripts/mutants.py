@@ -175,7 +175,7 @@ def main():
 
     written = options.out / "mutants.json"
     partial = options.out / "mutants.json.partial"
-    partial.write_text(json.dumps({"mutants": mutants}, indent=2) + "\n", encoding="utf-8")
+    partial.write_text(json.dumps({"mutants": mutants}, indent=2, allow_nan=False) + "\n", encoding="utf-8")
     partial.replace(written)
     departing = sum(not mutant["as_expected"] for mutant in mutants)
     caught = sum(mutant["caught"] for mutant in mutants)

@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
-using json_form::number;
 
 constexpr const char* format = "acstudy-bench-1";
 
@@ -111,7 +110,7 @@ json case_json(const BenchCase& one) {
               {"steps", one.result.steps},
               {"stages", one.c->integrator->stage_count()},
               {"threads", one.threads},
-              {"error_linf", number(one.result.error_linf)},
+              {"error_linf", one.result.error_linf},
               {"failure", one.result.failure.empty() ? one.result.blow_up : one.result.failure}};
   for_each_count(one.result, [&](const char* name, std::int64_t count) { out["work"][name] = count; });
   if (one.samples.empty()) return out;

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "mms/source.hpp"
+#include "studies/case.hpp"
 #include "studies/scheme.hpp"
-#include "studies/study.hpp"
 
 namespace acstudy {
 

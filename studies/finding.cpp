@@ -15,8 +15,10 @@ Judgement judge_bounds(const std::vector<Point>& points) {
   judgement.order = judgement.low = judgement.high = judgement.extrapolated = none;
   judgement.verdict = Verdict::violated;
   judgement.reason = "nothing was measured";
-  // Written so that a NaN is not within.
-  const auto within = [](const Point& point) { return point.lower <= point.value && point.value <= point.upper; };
+  // No value is within that is not finite: a file has null for each of these.
+  const auto within = [](const Point& point) {
+    return std::isfinite(point.value) && point.lower <= point.value && point.value <= point.upper;
+  };
   // The distance to the nearer bound, positive within.
   const auto room = [](const Point& point) { return std::min(point.value - point.lower, point.upper - point.value); };
   const auto worse = [&](const Point& a, const Point& b) {

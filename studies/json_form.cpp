@@ -11,7 +11,8 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
-/// A value as JSON; bytes that are no UTF-8, as a file name may have, are replaced.
+/// A value as JSON: null for a number that is not finite; bytes that are no UTF-8, as a file name may have, are
+/// replaced.
 std::string as_json_text(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 std::string pretty_at(const json& value, int depth) {
@@ -20,7 +21,7 @@ std::string pretty_at(const json& value, int depth) {
   const bool leaves = std::none_of(value.begin(), value.end(), [](const json& item) { return item.is_structured(); });
   const std::string separator = leaves ? ", " : ",\n" + inner, open = leaves ? " " : "\n" + inner,
                     close = leaves ? " " : "\n" + outer;
-  if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
+  if (value.is_number_float() && std::isfinite(value.get<double>())) return fmt::format("{:.17g}", value.get<double>());
   if (!value.is_structured() || value.empty()) return as_json_text(value);
   std::string text;
   for (const auto& [key, item] : value.items()) {
@@ -32,8 +33,6 @@ std::string pretty_at(const json& value, int depth) {
 }
 
 }  // namespace
-
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 std::string pretty(const json& value) { return pretty_at(value, 0); }
 

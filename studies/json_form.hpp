@@ -1,17 +1,15 @@
 #pragma once
 
 /// @file
-/// How result files write JSON.
+/// The one way in which JSON is written.
 
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace acstudy::json_form {
 
-/// A real number; null for what is not finite.
-nlohmann::ordered_json number(double value);
-
-/// JSON text with every real number at 17 significant digits; the library writes the fewest that read back the same.
+/// JSON text with every real number at 17 significant digits, where the library writes the fewest that read back the
+/// same, and null for one that is not finite: JSON has no infinity and no NaN.
 std::string pretty(const nlohmann::ordered_json& value);
 
 }  // namespace acstudy::json_form

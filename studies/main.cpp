@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 #include <thread>
@@ -47,6 +48,17 @@ int available_processors() {
 
 /// A line on stderr; whether anybody can read it must not matter to the exit code.
 void say(const std::string& message) { std::fputs(("acstudy: " + message + "\n").c_str(), stderr); }
+
+/// A real number from `low` to `high`. CLI::Range takes nan for one.
+CLI::Validator real_range(double low, double high) {
+  return {[low, high](const std::string& text) {
+            double value = std::numeric_limits<double>::quiet_NaN();
+            CLI::detail::lexical_cast(text, value);
+            if (low <= value && value <= high) return std::string();
+            return fmt::format("Value {} not in range {:g} to {:g}", text, low, high);
+          },
+          ""};
+}
 
 std::vector<Study> read_studies(const std::vector<std::string>& files) {
   std::vector<Study> studies;
@@ -349,7 +361,7 @@ int main(int argc, char** argv) {
       ->add_option("--least-seconds", bench_request.options.least_seconds,
                    fmt::format("least time of the timed runs of a case in all; {} runs do", most_runs))
       ->type_name("S")
-      ->check(CLI::Range(0.0, 3600.0))
+      ->check(real_range(0.0, 3600.0))
       ->capture_default_str();
   bench_command
       ->add_option("--threads", bench_request.options.threads,
@@ -376,8 +388,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto used = app.get_subcommands();
     if (used.empty() && argc > 1) {
-      say(fmt::format("unknown command \"{}\"; write run, check, fit, bench, explain or list; see acstudy --help",
-                      argv[1]));
+      say(fmt::format("unknown command {}; write run, check, fit, bench, explain or list; see acstudy --help",
+                      in_quotes(argv[1])));
       return bad_input;
     }
     say(fmt::format("{}; see acstudy {}--help", error.what(), used.empty() ? "" : used.front()->get_name() + " "));

@@ -1,5 +1,7 @@
 #include "studies/outcome.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,6 +27,43 @@ Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const 
   errors.l2 /= std::sqrt(scene.period());
   return errors;
 }
+
+namespace {
+
+/// The first field of the scene that is not finite at a particle at time t, with its place; empty if there is none.
+std::string field_at_fault(const Scene& scene, std::span<const double> x, double t) {
+  std::vector<double> value(x.size()), by_x(x.size()), by_t(x.size());
+  std::string found;
+  const auto look = [&](const char* what, const std::vector<double>& values) {
+    for (std::size_t j = 0; j < values.size() && found.empty(); ++j) {
+      if (std::isfinite(values[j])) continue;
+      found = fmt::format(
+          "{} is {} at x = {:.6g}, t = {:.6g}, where particle {} is; a field must be finite, and have "
+          "finite derivatives, wherever particles come",
+          what, std::isnan(values[j]) ? std::abs(values[j]) : values[j], x[j], t, j);
+    }
+  };
+  scene.c(x, value, by_x);
+  look("c", value);
+  look("the derivative of c", by_x);
+  if (!scene.standing()) {
+    scene.b(x, value, by_x);
+    look("b", value);
+    look("the derivative of b", by_x);
+  }
+  if (scene.solved()) {
+    scene.u(x, t, value, by_x, by_t);
+    look("u", value);
+    look("the derivative of u by x", by_x);
+    look("the derivative of u by t", by_t);
+  } else if (!scene.sourceless()) {
+    scene.f(x, t, value);
+    look("f", value);
+  }
+  return found;
+}
+
+}  // namespace
 
 void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std::span<const double> u, double t,
               double solution_at_first, const std::function<std::span<const double>(double)>& positions) {
@@ -58,6 +97,18 @@ void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std:
     result.last.time = end;
     if (result.last.particle >= 0) result.last.place = result.x[static_cast<std::size_t>(result.last.particle)];
   }
+  if (result.blow_up.empty()) return;
+  // A scene whose fields are not finite is no fault of the scheme: look at the stages of the last step.
+  const double from = std::isnan(result.last.time) ? t : result.last.time;
+  std::string fault = field_at_fault(scene, positions(t), t);
+  for (const Stage& stage : c.integrator->stages) {
+    if (!fault.empty()) break;
+    const double at = TimeStep{.begin = from, .end = t, .dt = t - from}.at(stage.time);
+    fault = field_at_fault(scene, positions(at), at);
+  }
+  if (fault.empty()) return;
+  result.failure = fault;
+  result.blow_up.clear();
 }
 
 }  // namespace acstudy

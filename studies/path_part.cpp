@@ -137,7 +137,7 @@ PathChoice read_path(const Table& table, bool solved) {
   }
   if (const toml::node* const order = table.find("order")) {
     path.order = table.number("order", *order);
-    if (!std::isfinite(*path.order) || *path.order < 0.0) {
+    if (*path.order < 0.0) {
       table.place(*order).fail(fmt::format("order = {}; an order must be finite and not negative", *path.order));
     }
   }

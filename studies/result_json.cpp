@@ -20,15 +20,14 @@ namespace acstudy {
 namespace {
 
 using json = nlohmann::ordered_json;
-using json_form::number;
 using json_form::pretty;
 
 json observed_json(const Judgement& judgement) {
   json out;
-  for (const auto& [name, value] : named_estimates(judgement)) out[name] = number(value);
-  out["extrapolated"] = number(judgement.extrapolated);
+  for (const auto& [name, value] : named_estimates(judgement)) out[name] = value;
+  out["extrapolated"] = judgement.extrapolated;
   out["pairwise"] = json::array();
-  for (const double order : judgement.pairwise) out["pairwise"].push_back(number(order));
+  for (const double order : judgement.pairwise) out["pairwise"].push_back(order);
   return out;
 }
 
@@ -38,10 +37,10 @@ json case_json(const Case& c, const CaseResult& r) {
               {"delta", c.delta},
               {"dt", r.dt},
               {"steps", r.steps},
-              {"error_linf", number(r.error_linf)},
-              {"solution_linf", number(r.solution_linf)},
-              {"error_l1", number(r.error_l1)},
-              {"error_l2", number(r.error_l2)},
+              {"error_linf", r.error_linf},
+              {"solution_linf", r.solution_linf},
+              {"error_l1", r.error_l1},
+              {"error_l2", r.error_l2},
               {"seconds", r.seconds},
               {"seconds_low", r.seconds_low},
               {"seconds_high", r.seconds_high},
@@ -67,12 +66,12 @@ json case_json(const Case& c, const CaseResult& r) {
   }
   if (!r.blow_up.empty() || !r.failure.empty()) {
     one["last"] = {{"step", r.last.step},
-                   {"time", number(r.last.time)},
+                   {"time", r.last.time},
                    {"particle", r.last.particle},
-                   {"place", number(r.last.place)},
-                   {"error_linf", number(r.last.error_linf)},
-                   {"error_l1", number(r.last.error_l1)},
-                   {"error_l2", number(r.last.error_l2)}};
+                   {"place", r.last.place},
+                   {"error_linf", r.last.error_linf},
+                   {"error_l1", r.last.error_l1},
+                   {"error_l2", r.last.error_l2}};
   }
   if (!r.blow_up.empty()) one["blow_up"] = r.blow_up;
   if (!r.failure.empty()) one["failure"] = r.failure;
@@ -116,21 +115,18 @@ json series_json(const SeriesResult& result) {
 }
 
 json two_powers_json(const TwoPowers& fit) {
-  const auto order = [](const FittedOrder& o) {
-    return json{{"value", number(o.value)}, {"low", number(o.low)}, {"high", number(o.high)}};
-  };
-  return {{"A", number(fit.A)}, {"B", number(fit.B)},     {"p", order(fit.p)},
-          {"q", order(fit.q)},  {"rms", number(fit.rms)}, {"bic", number(fit.bic)}};
+  const auto order = [](const FittedOrder& o) { return json{{"value", o.value}, {"low", o.low}, {"high", o.high}}; };
+  return {{"A", fit.A}, {"B", fit.B}, {"p", order(fit.p)}, {"q", order(fit.q)}, {"rms", fit.rms}, {"bic", fit.bic}};
 }
 
 json surface_json(const SurfaceFit& fit) {
   json out = two_powers_json(fit);
   if (fit.sum) out["sum"] = two_powers_json(*fit.sum);
-  out["h_correction"] = number(fit.h_correction);
-  out["delta_correction"] = number(fit.delta_correction);
-  out["sharpness"] = number(fit.sharpness);
-  out["bic_h"] = number(fit.bic_h);
-  out["bic_delta"] = number(fit.bic_delta);
+  out["h_correction"] = fit.h_correction;
+  out["delta_correction"] = fit.delta_correction;
+  out["sharpness"] = fit.sharpness;
+  out["bic_h"] = fit.bic_h;
+  out["bic_delta"] = fit.bic_delta;
   return out;
 }
 
@@ -157,15 +153,12 @@ json finding_json(const Finding& finding) {
   out["reason"] = judgement.reason;
   out["points"] = json::array();
   for (const Point& point : finding.points) {
-    json one = {{"N", point.N},
-                {"h", number(point.h)},
-                {"delta", number(point.delta)},
-                {"variable", number(point.variable)},
-                {"value", number(point.value)}};
+    json one = {
+        {"N", point.N}, {"h", point.h}, {"delta", point.delta}, {"variable", point.variable}, {"value", point.value}};
     if (!point.label.empty()) one["label"] = point.label;
     if (finding.test == Test::bounds) {
-      one["lower"] = number(point.lower);
-      one["upper"] = number(point.upper);
+      one["lower"] = point.lower;
+      one["upper"] = point.upper;
     }
     out["points"].push_back(one);
   }

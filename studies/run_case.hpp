@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "solver/velocity.hpp"
-#include "studies/study.hpp"
+#include "studies/case.hpp"
 
 namespace acstudy {
 

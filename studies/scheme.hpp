@@ -13,7 +13,7 @@
 #include "solver/particles.hpp"
 #include "solver/rate_matrix.hpp"
 #include "solver/velocity.hpp"
-#include "studies/study.hpp"
+#include "studies/case.hpp"
 
 namespace acstudy {
 

@@ -34,13 +34,20 @@ Study parse_study(const std::string& text, const std::string& file) {
     std::vector<std::string> known;
     for (const Kind& one : kinds) known.push_back("\"" + std::string(one.name) + "\"");
     header.place(*kind_node)
-        .fail(fmt::format("kind = \"{}\"; it must be one of {}", study.kind, fmt::join(known, ", ")));
+        .fail(fmt::format("kind = {}; it must be one of {}", in_quotes(study.kind), fmt::join(known, ", ")));
   }
   study.name = header.text("name", "name = \"fig2\"");
   if (study.name.empty() ||
       study.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
     header.place(*header.find("name"))
-        .fail(fmt::format("name = \"{}\"; it names result files and may use a-z, 0-9 and - only", study.name));
+        .fail(fmt::format("name = {}; it names result files and may use a-z, 0-9 and - only", in_quotes(study.name)));
+  }
+  constexpr std::size_t most_letters =
+      200;  // a file system takes 255, and files that are being written have longer names
+  if (study.name.size() > most_letters) {
+    header.place(*header.find("name"))
+        .fail(fmt::format("name = {}; it names result files and may have at most {} letters: write a shorter one",
+                          in_quotes(study.name), most_letters));
   }
   if (study.name == "cost") {
     header.place(*header.find("name"))

@@ -37,7 +37,8 @@ void Table::allow(const std::vector<std::string>& known) const {
   for (const auto& [key, value] : table_) {
     if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
       at(key.source())
-          .fail(fmt::format("unknown key \"{}\" in {}; known keys: {}", key.str(), title_, fmt::join(known, ", ")));
+          .fail(fmt::format("unknown key {} in {}; known keys: {}", in_quotes(key.str()), title_,
+                            fmt::join(known, ", ")));
     }
   }
 }
@@ -56,10 +57,7 @@ std::string Table::text(std::string_view key, const toml::node& node, std::strin
 std::string Table::expression_text(std::string_view key, std::string_view example, std::size_t& offset) const {
   const toml::node& node = need(key, example);
   offset = 0;
-  if (const auto value = node.value_exact<double>()) {
-    if (!std::isfinite(*value)) place(node).fail(fmt::format("{} = {}; it must be finite", key, described(node)));
-    return fmt::format("{:.17g}", *value);
-  }
+  if (node.is_floating_point()) return fmt::format("{:.17g}", number(key, node));
   if (const auto value = node.value_exact<std::int64_t>()) return fmt::format("{}", *value);
   offset = 1;
   if (const auto value = node.value_exact<std::string>()) return *value;
@@ -74,13 +72,17 @@ Expression Table::expression(std::string_view key, std::string_view example,
   try {
     return Expression(text, variables);
   } catch (const ExpressionError& error) {
-    place(*find(key)).shifted(offset + error.position).fail(fmt::format("{} = \"{}\": {}", key, text, error.what()));
+    const bool too_long = text.size() > Expression::most_letters;  // then the error begins with the text
+    const std::string said = too_long ? "" : " = " + in_quotes(text);
+    place(*find(key)).shifted(offset + error.position).fail(fmt::format("{}{}: {}", key, said, error.what()));
   }
 }
 
 double Table::number(std::string_view key, const toml::node& node) const {
-  if (const auto value = node.value<double>(); value && node.is_number()) return *value;
-  place(node).fail(fmt::format("{} must be a number, not {}", key, described(node)));
+  const auto value = node.value<double>();
+  if (!value || !node.is_number()) place(node).fail(fmt::format("{} must be a number, not {}", key, described(node)));
+  if (!std::isfinite(*value)) place(node).fail(fmt::format("{} = {}; it must be finite", key, described(node)));
+  return *value;
 }
 
 std::int64_t Table::whole(std::string_view key, const toml::node& node, std::int64_t least, std::int64_t most) const {
@@ -126,7 +128,7 @@ std::string Table::described(const toml::node& node) {
   std::ostringstream out;
   if (node.is_table()) return "a table";
   if (node.is_array()) return "an array";
-  if (const auto value = node.value_exact<std::string>()) return "\"" + *value + "\"";
+  if (const auto value = node.value_exact<std::string>()) return in_quotes(*value);
   if (const auto value = node.value_exact<double>()) {
     const std::string text = fmt::format("{}", *value);
     return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;

@@ -53,6 +53,7 @@ class Table {
   Expression expression(std::string_view key, std::string_view example,
                         const std::vector<std::string>& variables) const;
 
+  /// A finite number.
   double number(std::string_view key, const toml::node& node) const;
   /// A whole number from `least` to `most`.
   std::int64_t whole(std::string_view key, const toml::node& node, std::int64_t least, std::int64_t most) const;

@@ -61,6 +61,14 @@ INLINE = edit(STUDY, (USE, FIELDS))
 UNSOLVED = edit(INLINE, ('u = "cos(x-t)"', 'reference = "finest"\nu0 = "cos(x)"\nf = "sin(x-t)"'))
 
 
+def strict_json(text, **options):
+    """JSON as a strict parser reads it; Python's own takes NaN and Infinity, too."""
+    def refuse(name):
+        raise ValueError(f"{name} is not JSON")
+
+    return json.loads(text, parse_constant=refuse, **options)
+
+
 class ProgramTest(unittest.TestCase):
     maxDiff = None
 
@@ -88,7 +96,7 @@ class ProgramTest(unittest.TestCase):
         return done
 
     def result(self, study="tiny", out="out", **options):
-        return json.loads((self.folder / out / f"{study}.json").read_text(encoding="utf-8"), **options)
+        return strict_json((self.folder / out / f"{study}.json").read_text(encoding="utf-8"), **options)
 
     def assert_counts(self, done, computed, stored):
         self.assertIn(f"{computed} cases computed, {stored} taken from the store;", done.stdout, done.stderr)

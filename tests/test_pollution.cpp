@@ -167,7 +167,7 @@ TEST_CASE("studies that an error budget cannot be of are refused at their place"
   folder.write("tiny.toml", study_text("integrator = \"forward-euler\"\nstep = \"h/4\"\n"));
   CHECK(folder.refusal("studies = [\"tiny.toml\"]\n") == "accepted");
   CHECK(folder.refusal("studies = [\"tiny.toml\", \"none.toml\"]\n") ==
-        "budget.toml:5:25: studies contains \"none.toml\", but there is no file none.toml; names are relative to the "
+        "budget.toml:5:25: studies contains \"none.toml\", but there is no such file; names are relative to the "
         "study file");
   CHECK(folder.refusal("studies = [\"budget.toml\"]\n") ==
         "budget.toml:5:12: studies contains \"budget.toml\", which is of kind \"pollution\"; name studies of kind "

@@ -18,6 +18,7 @@ import tempfile
 
 import programs as known
 import selection
+import strict_json
 import summary
 
 FORMAT = "acstudy comparison 1"
@@ -186,7 +187,7 @@ def read_comparison(file):
 def write(file, found):
     file.parent.mkdir(parents=True, exist_ok=True)
     temporary = file.with_suffix(".tmp")
-    temporary.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    temporary.write_text(strict_json.dumps(found, indent=1) + "\n", encoding="utf-8")
     os.replace(temporary, file)
 
 

@@ -18,6 +18,7 @@ except ImportError:
     csr_array = None
 
 from scenes import SCENES
+import strict_json
 
 TIE = 1 + 1e-11     # a neighbor at exactly the horizon is inside; round-off in a position must not decide
 GAUSS_POINTS = 10   # per smooth piece of the kernel: round-off at a horizon of 0.2
@@ -152,4 +153,4 @@ def main(rates, cases_file, results_file):
         started = time.perf_counter()
         error = float(run(case, rates))
         results.append({"error_linf": error, "seconds": time.perf_counter() - started})
-    Path(results_file).write_text(json.dumps(results), encoding="utf-8")
+    Path(results_file).write_text(strict_json.dumps(results), encoding="utf-8")

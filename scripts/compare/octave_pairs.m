@@ -221,7 +221,8 @@ for m = 1:numel(cases)
   started = tic();
   e = run_case(cases{m}, rule);
   if m == 1, before = "["; else before = ","; end
-  fprintf(file, "%s{\"error_linf\": %.17g, \"seconds\": %.9g}", before, e, toc(started));
+  if isfinite(e), e = sprintf("%.17g", e); else e = "null"; end
+  fprintf(file, "%s{\"error_linf\": %s, \"seconds\": %.9g}", before, e, toc(started));
 end
 fprintf(file, "]\n");
 fclose(file);

@@ -11,6 +11,7 @@ import time
 from typing import Callable, Optional
 
 import selection
+import strict_json
 
 HERE = Path(__file__).resolve().parent
 # Every program but acstudy --jobs N is compared on one core.
@@ -91,7 +92,7 @@ def run_by_file(*command):
 
     def run(cases, folder):
         asked, answered = folder / "cases.json", folder / "results.json"
-        asked.write_text(json.dumps([case.asked() for case in cases]), encoding="utf-8")
+        asked.write_text(strict_json.dumps([case.asked() for case in cases]), encoding="utf-8")
         answered.unlink(missing_ok=True)
         before, after = command
         seconds, done = timed([*before, asked, answered, *after], ONE_THREAD)
@@ -100,7 +101,8 @@ def run_by_file(*command):
         results = json.loads(answered.read_text(encoding="utf-8"))
         if len(results) != len(cases):
             raise ProgramFailed(f"{len(results)} results for {len(cases)} cases")
-        return Outcome(seconds, [None if "left_out" in one else (one["error_linf"], one["seconds"]) for one in results])
+        return Outcome(seconds, [None if "left_out" in one else (strict_json.number(one["error_linf"]), one["seconds"])
+                                 for one in results])
 
     return run
 

@@ -24,6 +24,7 @@ from pysph.sph.integrator_step import IntegratorStep
 from pysph.sph.sph_compiler import SPHCompiler
 
 from scenes import SCENES
+import strict_json
 
 TIE = 1 + 1e-11     # a neighbor at exactly the horizon is inside; round-off in a position must not decide
 MARGIN = 1e-6       # of the search beyond the horizon: PySPH leaves out what is exactly there
@@ -104,7 +105,7 @@ def main(cases_file, results_file):
     for case in json.loads(Path(cases_file).read_text(encoding="utf-8")):
         error, seconds = run(case, SCENES[case["scene"]])
         results.append({"error_linf": error, "seconds": seconds})
-    Path(results_file).write_text(json.dumps(results), encoding="utf-8")
+    Path(results_file).write_text(strict_json.dumps(results), encoding="utf-8")
 
 
 if __name__ == "__main__":

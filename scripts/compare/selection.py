@@ -5,6 +5,8 @@ import json
 from pathlib import Path
 import re
 
+import strict_json
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 STUDIES = {**{f"fig{i}": ROOT / "studies" / f"fig{i}.toml" for i in range(1, 6)},
            "standing": Path(__file__).resolve().parent / "standing.toml"}
@@ -80,6 +82,6 @@ def read_results(names, folder):
             for one in series["cases"]:
                 case = Case("standing" if name == "standing" else "lee-du-2019", series["model"], series["divergence"],
                             series["kernel"], series["path"], series["source"], one["N"], one["delta"], one["steps"],
-                            series.get("mu", 0.0), one["error_linf"])
+                            series.get("mu", 0.0), strict_json.number(one["error_linf"]))
                 found.setdefault(case.key, (case, one["seconds"]))
     return found

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "studies/case.hpp"
 #include "studies/run_case.hpp"
-#include "studies/study.hpp"
 
 namespace acstudy {
 

@@ -9,8 +9,8 @@
 
 #include "solver/vector/sweeps.hpp"
 #include "solver/velocity.hpp"
+#include "studies/case.hpp"
 #include "studies/ensemble/shared_particles.hpp"
-#include "studies/study.hpp"
 
 namespace acstudy {
 

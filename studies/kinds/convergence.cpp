@@ -18,7 +18,7 @@ void read_convergence(const Table& root, Study& study) {
     paths.push_back(read_path(table, study.scene->solved()));
     if (!names.insert(paths.back().name).second) {
       table.place(*table.find("name"))
-          .fail(fmt::format("a second path named \"{}\"; names must differ", paths.back().name));
+          .fail(fmt::format("a second path named {}; names must differ", in_quotes(paths.back().name)));
     }
   }
   for (const SchemeEntry& entry : read_schemes(root, *study.scene)) {

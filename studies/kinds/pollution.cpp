@@ -75,9 +75,10 @@ void measure(Finding& finding, const Case& c, const Reruns& reruns, const Result
 /// A study named by another one.  @param at  where it is named
 Study read_named(const std::string& name, const std::string& by, const Place& at) {
   const std::filesystem::path file = std::filesystem::path(by).parent_path() / name;
-  if (!std::filesystem::is_regular_file(file)) {
-    at.fail(fmt::format("studies contains \"{}\", but there is no file {}; names are relative to the study file", name,
-                        file.string()));
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) {
+    at.fail(fmt::format("studies contains {}, but there is no such file; names are relative to the study file",
+                        in_quotes(name)));
   }
   // Before it is read as a study, or a study that names itself would be read for ever.
   std::string kind;

@@ -29,7 +29,7 @@ using IntervalOf = std::function<Estimate(LevelView)>;
 /// Errors C v^p, with and without a second term, times lognormal noise: 4 to 8 levels; order 1/2, 1, 2 or 3; ratios
 /// between 1.4 and 2.4, each its own; D v^q between -0.6 and 1 at the coarsest level; noise between 0.1 % and 3 %.
 ///
-/// The interval is made for q = 1. Where noise hides another q it is too narrow, which this can measure.
+/// q is hidden from the judge: 1, 1/2 and 2 are to be covered alike.
 ///
 /// @param trials    per class and number of levels
 /// @param interval  the one that `judge` reports by default

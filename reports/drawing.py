@@ -18,6 +18,7 @@ import look
 import map_figures
 import operator_figures
 import pollution_figures
+import scan_figures
 import stability_map_figures
 import stepping_figures
 from results import CONVERGENCE
@@ -25,7 +26,7 @@ from results import CONVERGENCE
 _OF_KIND = {"consistency": operator_figures.consistency_drawings, "identities": operator_figures.identity_drawings,
             "stability": operator_figures.stability_drawings, "controls": control_figures.drawings,
             "map": map_figures.drawings, "pollution": pollution_figures.drawings,
-            "coverage": coverage_figures.drawings, "digits": digit_figures.drawings,
+            "coverage": coverage_figures.drawings, "scan": scan_figures.drawings, "digits": digit_figures.drawings,
             "extremes": extremes_figures.drawings, "stability-map": stability_map_figures.drawings}
 
 

@@ -294,7 +294,7 @@ CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
   united.low = united.high = united.order;
   const bool drift = explains_more(levels, fit_power_law(levels).residual, best.law.residual, 3, drift_level);
   const bool few = levels.size() == 4;
-  const double part_of_miss = drift ? (few ? 2.5 : 1.2) : (few ? 3.0 : 2.2);
+  const double part_of_miss = drift ? (few ? 1.5 : 1.2) : (few ? 2.6 : 2.2);
   const double t = student(1.0 - part_of_miss * miss, freedom(levels, 3)), free = freedom(levels, 3);
   const auto unite = [&](const BestLaw& one) {
     const double bound = one.law.residual + t * t * (one.law.residual + known_squares(levels)) / free;
@@ -304,7 +304,7 @@ CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
   };
   unite(best);
   for (const double q : united_exponents) {
-    if (q == best.law.q) continue;
+    if (q == best.law.q || (few && q > 2.0)) continue;
     const BestLaw one = best_law(logs, q, v_0);
     if (!explains_more(levels, one.law.residual, best.law.residual, 3, 0.1 * miss)) unite(one);
   }

@@ -42,7 +42,7 @@ constexpr double slowest_correction = 0.4;
 /// An error that falls with a higher order than this has not stopped falling.
 constexpr double slowest_fall = 0.45;
 /// Pairwise orders this close to those of a law are its own.
-constexpr double closest_following = 0.015;
+constexpr double closest_following = 0.02;
 /// What condemns must not be wrong more often than this.
 constexpr double firm_miss = 0.01, firm_level = 0.02;
 /// An order without a drift that is farther than this from theory's is no accident.

@@ -36,6 +36,8 @@ void read_digits(const Table& root, Study& study);
 void read_corpus(const Table& root, Study& study);
 /// How often the reported interval contains the true order.
 void read_coverage(const Table& root, Study& study);
+/// How often the judge is firm and wrong, and how often it decides, on series of two terms.
+void read_scan(const Table& root, Study& study);
 
 /// `name` as a study file writes it in [study] kind; `read` fills what the header does not.
 struct Kind {
@@ -57,6 +59,7 @@ inline constexpr std::array kinds = {
     Kind{"digits", "round-off of weights and renormalizations, against 50 digits", read_digits},
     Kind{"corpus", "verdicts on synthetic series whose right verdict is known", read_corpus},
     Kind{"coverage", "how often the 95 % interval contains the true order", read_coverage},
+    Kind{"scan", "how often verdicts are firm and wrong, and how often they decide", read_scan},
 };
 
 }  // namespace acstudy

@@ -7,6 +7,7 @@
 #include "reports/value_corpus.hpp"
 #include "reports/value_coverage.hpp"
 #include "studies/kinds/kinds.hpp"
+#include "studies/once.hpp"
 
 namespace acstudy {
 
@@ -138,26 +139,18 @@ void read_coverage(const Table& root, Study& study) {
                                     return finding;
                                   }});
   };
+  const auto reported = once([=] { return interval_coverage(trials, seed); });
   measure("coverage: reported interval", [=] {
-    const auto all = interval_coverage(trials, seed);
-    Finding finding = coverage_finding("reported interval", fmt::format("{} series", trials * rows), {together(all)});
-    return finding;
+    return coverage_finding("reported interval", fmt::format("{} series", trials * rows), {together(reported())});
   });
   for (const std::string kind : {"power law", "two terms"}) {
-    measure("coverage: reported interval, " + kind, [=] {
-      return coverage_finding("reported interval", kind, of_class(kind, interval_coverage(trials, seed)));
-    });
+    measure("coverage: reported interval, " + kind,
+            [=] { return coverage_finding("reported interval", kind, of_class(kind, reported())); });
   }
   for (const double q : {0.5, 2.0}) {
     const std::string name = fmt::format("two terms, correction v^{}", q);
     measure("coverage: reported interval, " + name, [=] {
-      Finding finding =
-          coverage_finding("reported interval", name, of_class("two terms", interval_coverage(trials, seed, q)));
-      finding.expected = Verdict::violated;
-      finding.remark =
-          "The interval is made for corrections v^1. Fewer than six levels, or noise, hide another exponent; the "
-          "interval is then too narrow.";
-      return finding;
+      return coverage_finding("reported interval", name, of_class("two terms", interval_coverage(trials, seed, q)));
     });
   }
   measure("coverage: interval of the power law, uncorrected (control)", [=] {

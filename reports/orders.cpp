@@ -116,11 +116,29 @@ std::optional<Conclusion> unusable(LevelView levels, const JudgeOptions& options
   return std::nullopt;
 }
 
+/// The finest orders go on in one direction, away from where the law of a window says that they go.
+bool end_leaves_law(std::span<const double> pairwise, const CorrectedLaw& law) {
+  if (pairwise.size() < 5) return false;
+  const double last = pairwise.back(), before = pairwise[pairwise.size() - 2], third = pairwise[pairwise.size() - 3];
+  return !law.contains(last) && (last - before) * (last - law.order) > 0.0 && (before - third) * (last - before) > 0.0;
+}
+
 void estimate(LevelView levels, Judgement& result) {
   result.window = asymptotic_window(levels);
-  const LevelView inside = levels.subspan(result.window.first);
-  result.fitted = fit_power_law(inside);
+  // A level that is off by little is no outlier where four finer ones follow their law without it, and no part of it.
+  for (auto off = find_outlier(levels.subspan(result.window.first));
+       off && std::abs(off->deviation) < std::log(harmless_factor) && off->level + 5 <= result.window.size();
+       off = find_outlier(levels.subspan(result.window.first))) {
+    result.window.first += off->level + 1;
+  }
+  LevelView inside = levels.subspan(result.window.first);
   result.corrected = fit_corrected_law(inside);
+  if (end_leaves_law(std::span(result.pairwise).subspan(result.window.first), result.corrected)) {
+    result.window.first = levels.size() - 5;
+    inside = levels.subspan(result.window.first);
+    result.corrected = fit_corrected_law(inside);
+  }
+  result.fitted = fit_power_law(inside);
   result.floored = fit_floored_law(inside);
   result.extrapolated = result.corrected.order;
   result.leave_one_out = leave_one_out(inside);
@@ -202,7 +220,8 @@ class Evidence {
     if (!(last_ < slowest_fall)) return false;
     const double share = result_.floored.F / all_.back().error;
     return share > 0.5 && share <= 1.0 &&
-           ((result_.corrected.order < 0.0 && last_ < 0.5 * slowest_fall) ||
+           (result_.corrected.high < 0.5 * slowest_fall ||
+            (result_.corrected.order < 0.0 && last_ < 0.5 * slowest_fall) ||
             explains_more(inside_, result_.corrected.residual, result_.floored.residual, 3, 0.05)) &&
            explains_more(inside_, result_.fitted.residual, result_.floored.residual, 3, 0.05);
   }
@@ -300,7 +319,9 @@ class Evidence {
     // A pre-asymptotic range is a range: two levels or more, the coarsest of them off the most, or one that is far off
     // or where the finer ones were heading. Any other is an outlier.
     const bool alone = first == 1 && std::abs(off(0)) < std::log(coarse_factor) && !drifts();
-    if (alone || (first > 1 && std::abs(off(0)) < std::abs(off(first - 1)))) return outlier(first - 1, off(first - 1));
+    const bool astray = first > 1 && std::abs(off(0)) < std::abs(off(first - 1));
+    if ((alone || astray) && std::abs(off(first - 1)) > std::log(harmless_factor))
+      return outlier(first - 1, off(first - 1));
     if (auto answer = coarsest_is_off()) return answer;
     if (const auto found = find_outlier(inside_)) {
       // Where every level departs no single one is to blame.
@@ -408,7 +429,9 @@ class Evidence {
     if (theory_ == 0.0 || !(std::abs(last_ - theory_) <= widest_scatter)) return std::nullopt;
     const bool nearer = std::abs(last_ - theory_) < std::abs(pairwise_.front() - theory_);
     const bool agrees = result_.corrected.contains(theory_) || near(result_.extrapolated);
-    const bool sharp = agrees && result_.corrected.half_width() <= extrapolation_tolerance && nearer;
+    const bool at_end = near(last_) && near(result_.extrapolated);
+    const bool sharp =
+        agrees && nearer && result_.corrected.half_width() <= (at_end ? widest_half_width : extrapolation_tolerance);
     if (!approaching() && !sharp) return std::nullopt;
     if (inside_.size() < 4) {
       return inconclusive(fmt::format("pairwise orders {} move toward {:g}; to extrapolate them takes a fourth level",

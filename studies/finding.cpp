@@ -59,8 +59,7 @@ bool reaches(const Judgement& judgement, double theory_order) {
   // Levels that are no refinement have no fit, whatever their pairwise orders.
   if (std::isnan(judgement.fitted.order) || judgement.high < least) return false;
   if (all_above(least)) return true;
-  const bool leaving =
-      std::is_sorted(pairwise.rbegin(), pairwise.rend()) && pairwise.back() + judgement.fitted.half_width() < least;
+  const bool leaving = std::is_sorted(pairwise.rbegin(), pairwise.rend()) && pairwise.back() < least;
   return all_above(0.0) && !leaving && judgement.fitted.high >= least && judgement.fitted.half_width() <= widest_rate;
 }
 

@@ -12,12 +12,12 @@ namespace acstudy {
 /// A function that returns what `take` does and calls it once, from however many threads and copies it is asked.
 template <class Take>
 auto once(Take take) {
-  using Value = decltype(take());
+  using Taken = decltype(take());
   struct State {
     std::once_flag flag;
-    std::optional<Value> value;
+    std::optional<Taken> value;
   };
-  return [take, state = std::make_shared<State>()]() -> const Value& {
+  return [take, state = std::make_shared<State>()]() -> const Taken& {
     std::call_once(state->flag, [&] { state->value.emplace(take()); });
     return *state->value;
   };

@@ -1,8 +1,8 @@
+#include "studies/path_part.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "studies/study_parts.hpp"
 
 namespace acstudy {
 

@@ -93,7 +93,7 @@ Judgement judge_errors(const std::vector<Level>& levels, const std::optional<Ref
   };
   double order = theory_order;
   Judgement judgement = judged_for(order);
-  if (judgement.verdict == Verdict::below || judgement.verdict == Verdict::above) {
+  if (!meets(judgement.verdict, Verdict::confirmed) && std::isfinite(judgement.order)) {
     // Each round takes the order that the last one has found; the orders approach one another by half and faster.
     constexpr int most = 60;
     constexpr double close = 1e-4;

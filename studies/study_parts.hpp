@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "studies/claims/subject.hpp"
+#include "studies/path_part.hpp"
 #include "studies/study.hpp"
 #include "studies/toml_table.hpp"
 
@@ -35,9 +36,6 @@ struct SchemeEntry {
 };
 std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene);
 
-/// N = [160, 320, ...], coarse to fine.
-std::vector<std::int64_t> read_levels(const Table& table);
-
 /// All of [[scheme]] on each arrangement of particles: uniform, jittered and, if particles move, moved.
 std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene);
 
@@ -50,26 +48,8 @@ SchemeEntry read_control(const Table& table, const Scene& scene);
 /// [sweep]: N, ratios and, optionally, horizons, each below half the period.
 Sweep read_sweep(const Table& table, const Scene& scene);
 
-/// A refinement path: the curve delta(h) and the levels on it.
-struct PathChoice {
-  std::string name;
-  Expression delta;
-  std::vector<std::int64_t> N;
-  bool nonlocal_source;
-  std::optional<Verdict> expect;
-  std::optional<double> order;  ///< in place of theory's
-  Start start = {};
-  Place at_start = {};
-  bool against_reference = false;  ///< the last of N is the reference and no level
-};
-/// @param solved  false: no solution is known, so errors are against a reference
-PathChoice read_path(const Table& table, bool solved = true);
-
 /// Fails unless 0 < delta < period / 2.  @param at  the place to blame
 void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at);
-
-/// A verdict that a study may expect of an order.
-Verdict read_expected(const Table& table, const toml::node& node);
 
 /// [time]: how a study steps.
 struct Stepping {

@@ -32,7 +32,7 @@ class FitTest(ProgramTest):
 class VerdictTest(FitTest):
     def test_exit_code_is_zero_only_for_the_order_asked_for(self):
         for order, code, verdict in (("1", 0, "confirmed"), ("2", 1, "below"), ("0.5", 1, "above"),
-                                     ("0", 1, "inconclusive")):
+                                     ("0", 1, "above")):
             result = self.judged(table(power(1)), "--order", order, code=code)
             self.assertEqual((result["verdict"], result["theory_order"]), (verdict, float(order)))
         self.assertEqual(self.judged(table(power(1, -3.9)), "--order", "1", code=0)["verdict"], "pre-asymptotic")
@@ -40,9 +40,9 @@ class VerdictTest(FitTest):
         self.assertEqual(self.judged(settling, "--order", "0", code=0)["verdict"], "stagnates")
         self.assertEqual(self.judged(settling, "--order", "1", code=1)["verdict"], "stagnates")
 
-    def test_without_an_order_nothing_is_confirmed(self):
-        result = self.judged(table(power(1)), code=1)
-        self.assertEqual((result["verdict"], result["theory_order"]), ("inconclusive", None))
+    def test_without_an_order_a_sharp_one_is_determined(self):
+        result = self.judged(table(power(1)), code=0)
+        self.assertEqual((result["verdict"], result["theory_order"]), ("determined", None))
         self.assertIn("no theory's order", result["reason"])
         self.assertAlmostEqual(result["order"], 1, delta=1e-6)
         for errors, verdict in (([1, 2, 4, 8, 16], "diverges"), ([1, 1, 1, 1, 1], "stagnates"),

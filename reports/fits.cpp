@@ -47,22 +47,25 @@ struct Minimum {
   double at, value;
 };
 
-/// Lowest value on [first, last]: a scan, for there may be several minima, then Brent around the best.
+/// Lowest value on [first, last]: a scan, for there may be several minima, then Brent around each that shows.
 template <class Function>
 Minimum minimize(Function function, double first, double last, int cells) {
   const auto at = [&](int i) { return first + (last - first) * i / cells; };
-  int best = 0;
-  double lowest = std::numeric_limits<double>::infinity();
+  std::vector<double> values;
   for (int i = 0; i <= cells; ++i) {
-    if (const double value = function(at(i)); value < lowest) {
-      lowest = value;
-      best = i;
-    }
+    const double value = function(at(i));
+    values.push_back(std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
   }
-  std::uintmax_t iterations = 60;
-  const auto [x, value] = boost::math::tools::brent_find_minima(function, at(std::max(best - 1, 0)),
-                                                                at(std::min(best + 1, cells)), 40, iterations);
-  return {x, value};
+  Minimum best{first, std::numeric_limits<double>::infinity()};
+  for (int i = 0; i <= cells; ++i) {
+    const auto here = values.begin() + i;
+    if ((i > 0 && *(here - 1) < *here) || (i < cells && *(here + 1) <= *here)) continue;
+    std::uintmax_t iterations = 60;
+    const auto [x, value] = boost::math::tools::brent_find_minima(function, at(std::max(i - 1, 0)),
+                                                                  at(std::min(i + 1, cells)), 40, iterations);
+    if (value < best.value) best = {x, value};
+  }
+  return best;
 }
 
 // The corrected law is fitted over z = log(1 + D v_0^q), v_0 the coarsest level: every z keeps 1 + D v^q positive on

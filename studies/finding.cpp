@@ -59,7 +59,8 @@ bool reaches(const Judgement& judgement, double theory_order) {
   // Levels that are no refinement have no fit, whatever their pairwise orders.
   if (std::isnan(judgement.fitted.order) || judgement.high < least) return false;
   if (all_above(least)) return true;
-  const bool leaving = std::is_sorted(pairwise.rbegin(), pairwise.rend()) && pairwise.back() < least;
+  const bool leaving =
+      std::is_sorted(pairwise.rbegin(), pairwise.rend()) && pairwise.back() + judgement.fitted.half_width() < least;
   return all_above(0.0) && !leaving && judgement.fitted.high >= least && judgement.fitted.half_width() <= widest_rate;
 }
 

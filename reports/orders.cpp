@@ -102,7 +102,7 @@ std::optional<Conclusion> unusable(LevelView levels, const JudgeOptions& options
   if (levels.back().error <= floor) {
     return Conclusion{Verdict::floor,
                       fmt::format("the finest error, {:.2g}, is {}", levels.back().error,
-                                  levels.back().error <= options.floor.value_or(0.0)
+                                  options.floor && levels.back().error <= *options.floor
                                       ? fmt::format("at the known floor of {:.2g}", *options.floor)
                                   : options.scale ? fmt::format("round-off of a solution of {:.2g}", *options.scale)
                                                   : "exactly zero")};

@@ -46,7 +46,7 @@ class VerdictTest(FitTest):
         self.assertIn("no theory's order", result["reason"])
         self.assertAlmostEqual(result["order"], 1, delta=1e-6)
         for errors, verdict in (([1, 2, 4, 8, 16], "diverges"), ([1, 1, 1, 1, 1], "stagnates"),
-                                ([1e-2, 1e-6, 1e-10, 1e-14, 1e-15], "floor"), ([1, 0.5, math.nan, 0.1, 0.05], "unstable"),
+                                ([1e-2, 1e-6, 1e-10, 1e-14, 1e-14], "floor"), ([1, 0.5, math.nan, 0.1, 0.05], "unstable"),
                                 ([1, 0.5, math.inf, 0.1, 0.05], "unstable"), ([1, 0.5, -0.25, 0.1, 0.05], "inconclusive")):
             self.assertEqual(self.judged(table(errors), code=1)["verdict"], verdict)
 

@@ -243,6 +243,30 @@ void add_floors(Entries& all) {
                  {confirmed},
                  "1e-14 is no round-off where the solution is 1e-6",
                  {.scale = 1e-6}});
+  // Errors of a patch test, as a peridynamics code reported them.
+  const std::vector<Level> patch = {
+      {1.0, 7.1e-15}, {0.5, 4.1e-14}, {0.25, 2.6e-13}, {0.125, 4.5e-13}, {0.0625, 3.2e-12}};
+  all.push_back({"round-off that grows, of a solution of size one",
+                 patch,
+                 1.0,
+                 {floor},
+                 "1e-12 of the solution",
+                 {.scale = 1.0}});
+  all.push_back({"round-off that grows, of a solution of unknown size",
+                 patch,
+                 1.0,
+                 {inconclusive, floor},
+                 "nothing but the size tells round-off from growth without a law"});
+  all.push_back({"order 3 down to 2e-13",
+                 levels(refined(0.125, 2.0, 8), [](double v) { return 2.2e-4 * std::pow(v, 3.0); }),
+                 3.0,
+                 {confirmed},
+                 "small errors that fall with an order are no floor"});
+  all.push_back({"h^4 + 0.004 h, as theory says that it settles",
+                 levels(refined(1.0, 2.0, 4), [](double v) { return std::pow(v, 4.0) + 0.004 * v; }),
+                 0.0,
+                 {inconclusive, above},
+                 "the last pairwise order is 2.74"});
   for (const double height : {1e-9, 1e-3, 0.5}) {
     all.push_back({fmt::format("order 2 down to {}", height),
                    levels(refined(std::sqrt(height) * 8.0, 2.0, 8), plateau(2.0, height)),

@@ -85,9 +85,20 @@ std::vector<Level> errors_for(double order, std::vector<Level> differences, doub
 
 }  // namespace
 
+namespace {
+
+constexpr const char* higher_orders =
+    "; theorems are upper bounds: if that is right, write order = ... or expect = \"above\" on the path";
+
+}  // namespace
+
 Judgement judge_errors(const std::vector<Level>& levels, const std::optional<ReferenceLevel>& reference,
                        double theory_order, const JudgeOptions& options) {
-  if (!reference) return judge(levels, theory_order, options);
+  if (!reference) {
+    Judgement judgement = judge(levels, theory_order, options);
+    if (judgement.verdict == Verdict::above) judgement.reason += higher_orders;
+    return judgement;
+  }
   const auto judged_for = [&](double order) {
     return judge(errors_for(order, levels, reference->variable), theory_order, options);
   };

@@ -162,14 +162,11 @@ void read_coverage(const Table& root, Study& study) {
   });
   // These take a hundred times as long as errors do, and are fewer.
   const std::size_t value_trials = (trials + 9) / 10;
-  measure("coverage: order of values", [=] {
-    return value_coverage_finding("order of values", value_coverage(value_trials, seed),
-                                  &ValueCoverageRow::order_covered);
-  });
-  measure("coverage: extrapolated value", [=] {
-    return value_coverage_finding("extrapolated value", value_coverage(value_trials, seed),
-                                  &ValueCoverageRow::limit_covered);
-  });
+  const auto values = once([=] { return value_coverage(value_trials, seed); });
+  measure("coverage: order of values",
+          [=] { return value_coverage_finding("order of values", values(), &ValueCoverageRow::order_covered); });
+  measure("coverage: extrapolated value",
+          [=] { return value_coverage_finding("extrapolated value", values(), &ValueCoverageRow::limit_covered); });
   measure("coverage: extrapolated value of the law without correction (control)", [=] {
     Finding finding =
         value_coverage_finding("extrapolated value without correction (control)",

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "solver/integrators.hpp"
 #include "solver/model1.hpp"
 #include "solver/model2.hpp"
+#include "solver/time/integrators.hpp"
 
 namespace {
 

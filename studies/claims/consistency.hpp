@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "studies/claims/subject.hpp"
-#include "studies/study_parts.hpp"
+#include "studies/cases/subject.hpp"
+#include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 

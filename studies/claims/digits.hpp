@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "studies/claims/subject.hpp"
-#include "studies/kernel_choice.hpp"
+#include "studies/cases/subject.hpp"
+#include "studies/models/kernel_choice.hpp"
 
 namespace acstudy {
 

@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include "solver/integrators.hpp"
+#include "solver/time/integrators.hpp"
+#include "studies/cases/subject.hpp"
 #include "studies/claims/extremes.hpp"
-#include "studies/claims/subject.hpp"
-#include "studies/run_case.hpp"
+#include "studies/running/run_case.hpp"
 
 namespace acstudy {
 

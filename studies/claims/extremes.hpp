@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "studies/study.hpp"
+#include "studies/cases/study.hpp"
 
 namespace acstudy {
 

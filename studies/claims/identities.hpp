@@ -3,7 +3,7 @@
 /// @file
 /// What weights satisfy exactly, or within a bound: Remarks 2.1 and 2.2, (2.3), (3.4), (3.5) and Lemma 3.1.
 
-#include "studies/claims/subject.hpp"
+#include "studies/cases/subject.hpp"
 
 namespace acstudy {
 

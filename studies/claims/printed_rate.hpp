@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "studies/claims/subject.hpp"
+#include "studies/cases/subject.hpp"
 
 namespace acstudy {
 

@@ -3,7 +3,7 @@
 /// @file
 /// Lemmas 2.4 and 3.3: the exact max norm of a forward Euler step.
 
-#include "studies/claims/subject.hpp"
+#include "studies/cases/subject.hpp"
 
 namespace acstudy {
 

@@ -8,8 +8,8 @@
 #include <complex>
 #include <functional>
 
-#include "solver/integrators.hpp"
-#include "studies/claims/subject.hpp"
+#include "solver/time/integrators.hpp"
+#include "studies/cases/subject.hpp"
 
 namespace acstudy {
 

@@ -5,13 +5,13 @@
 #include <map>
 #include <set>
 
+#include "studies/cases/study_result.hpp"
 #include "studies/claims/identities.hpp"
 #include "studies/claims/stability.hpp"
-#include "studies/control_choice.hpp"
 #include "studies/kinds/kinds.hpp"
-#include "studies/operator.hpp"
-#include "studies/store.hpp"
-#include "studies/study_parts.hpp"
+#include "studies/models/control_choice.hpp"
+#include "studies/models/operator.hpp"
+#include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "studies/kinds/kinds.hpp"
-#include "studies/study_parts.hpp"
+#include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 

@@ -1,7 +1,7 @@
 #include "studies/claims/extremes.hpp"
 
 #include "studies/kinds/kinds.hpp"
-#include "studies/study_parts.hpp"
+#include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <string_view>
 
-#include "studies/study.hpp"
-#include "studies/toml_table.hpp"
+#include "studies/cases/study.hpp"
+#include "studies/reading/toml_table.hpp"
 
 namespace acstudy {
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <set>
 
+#include "studies/cases/study_result.hpp"
 #include "studies/kinds/kinds.hpp"
-#include "studies/store.hpp"
-#include "studies/study_parts.hpp"
-#include "studies/theory.hpp"
+#include "studies/models/theory.hpp"
+#include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 

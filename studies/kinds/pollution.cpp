@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "studies/cases/study_result.hpp"
 #include "studies/kinds/kinds.hpp"
-#include "studies/store.hpp"
-#include "studies/study_file.hpp"
+#include "studies/kinds/study_file.hpp"
 
 namespace acstudy {
 

@@ -1,9 +1,9 @@
-#include "reports/scan.hpp"
+#include "reports/judging/scan.hpp"
 
 #include <fmt/format.h>
 
+#include "studies/claims/once.hpp"
 #include "studies/kinds/kinds.hpp"
-#include "studies/once.hpp"
 
 namespace acstudy {
 

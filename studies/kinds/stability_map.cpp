@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "studies/control_choice.hpp"
 #include "studies/kinds/kinds.hpp"
-#include "studies/study_parts.hpp"
+#include "studies/models/control_choice.hpp"
+#include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 

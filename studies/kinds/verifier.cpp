@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "reports/corpus.hpp"
-#include "reports/coverage.hpp"
-#include "reports/value_corpus.hpp"
-#include "reports/value_coverage.hpp"
+#include "reports/judging/corpus.hpp"
+#include "reports/judging/coverage.hpp"
+#include "reports/judging/value_corpus.hpp"
+#include "reports/judging/value_coverage.hpp"
+#include "studies/claims/once.hpp"
 #include "studies/kinds/kinds.hpp"
-#include "studies/once.hpp"
 
 namespace acstudy {
 

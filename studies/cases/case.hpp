@@ -1,0 +1,61 @@
+#pragma once
+
+/// @file
+/// One run: everything that fixes its numbers.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mms/scene.hpp"
+#include "mms/source.hpp"
+#include "solver/time/integrators.hpp"
+#include "studies/models/arrangement.hpp"
+#include "studies/models/scheme_choice.hpp"
+
+namespace acstudy {
+
+/// How long the steps of a run may be.
+struct StepRule {
+  /// Which bound steps follow: none, they are equal; that of Lemma 2.4 or 3.3 at the smallest gap of the moment; or
+  /// what the proofs of these need of the rows, `Scheme::strongest_decay`, at the particles of the moment.
+  enum class Bound { none, lemma, rows };
+  Bound bound = Bound::none;
+  double safety = 1.0;  ///< fraction of the bound that is taken
+  std::string text;     ///< as a study writes it: "h/4", "cfl"
+
+  /// "h/4", "0.9 cfl", "0.9 cfl by rows"
+  std::string label() const;
+};
+
+/// Everything that fixes the numbers of one run.
+struct Case {
+  std::shared_ptr<const Scene> scene;
+  SchemeChoice scheme;
+  double mu;  ///< of Model II; 0 for Model I
+  bool nonlocal_source;
+  SourceRule source_rule;
+  const Integrator* integrator;
+  std::int64_t N;
+  double h, delta;
+  double dt;           ///< of equal steps; with a bound, the first one by Lemma 2.4 or 3.3
+  std::int64_t steps;  ///< equal ones; with a bound, as many of the first one
+  Start start = {};
+  StepRule step = {};
+  bool readable = false;              ///< run in the readable form of the scheme even where there is a vector form
+  std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
+
+  /// Text that is equal for two cases exactly if all their inputs are equal.
+  std::string key() const;
+  /// Rough number of pair interactions, to start the longest case first.
+  double estimated_work() const;
+  /// `lemma_step` of this case.
+  double lemma_bound(double h_min) const;
+  /// CFL number at the start: dt over the bound of the lemma.
+  double cfl() const { return dt / lemma_bound(h * start.smallest_gap); }
+  /// Twice as many steps of half the length.
+  void halve_steps();
+};
+
+}  // namespace acstudy

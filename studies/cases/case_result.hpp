@@ -1,0 +1,66 @@
+#pragma once
+
+/// @file
+/// What a run gives.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "solver/velocity.hpp"
+
+namespace acstudy {
+
+/// The last state of a run that was given up, and what had become of its errors.
+struct LastState {
+  std::int64_t step = 0;  ///< steps done; 0 where the run went to its end
+  double time = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t particle = -1;                               ///< the one that gave the run away
+  double place = std::numeric_limits<double>::quiet_NaN();  ///< its position
+  double error_linf = std::numeric_limits<double>::quiet_NaN();
+  double error_l1 = std::numeric_limits<double>::quiet_NaN(), error_l2 = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Explicit steps against the bound of Lemma 2.4 or 3.3 at the smallest gap of the moment.
+struct StepsAgainstBound {
+  double largest = 0.0;         ///< largest dt over the bound; 0 where nothing is bounded
+  std::int64_t first_step = 0;  ///< first step beyond the bound; 0: none
+  double first_time = std::numeric_limits<double>::quiet_NaN();
+  double first_place = std::numeric_limits<double>::quiet_NaN();  ///< left end of the smallest gap then
+};
+
+struct CaseResult {
+  bool completed = false;  ///< false: interrupted or put off, nothing else is meaningful
+  std::string blow_up;     ///< how the solution left all bounds, if it did; the errors are then NaN
+  std::string failure;     ///< why there is no solution for another reason, if so; the errors are then NaN
+  double error_linf = 0.0;
+  double solution_linf = 0.0;  ///< largest exact |u|, or the reference's, at the particles, at first or at the end
+  double error_l1 = 0.0, error_l2 = 0.0;  ///< weighted by cell width, divided by the period
+
+  double seconds = 0.0;                          ///< wall time of the whole time loop, median over the repeats
+  double seconds_low = 0.0, seconds_high = 0.0;  ///< fastest and slowest repeat
+  // Parts of `seconds`, from a sample of the steps if there are many. Where threads share a pass over the particles the
+  // clock of one of them tells its parts apart; what is in none is the step itself, the set-up, and the wait for other
+  // threads.
+  double positions_seconds = 0.0;  ///< where the particles are, and their phases
+  double weights_seconds = 0.0;    ///< velocities, windows and weights
+  double pairs_seconds = 0.0;      ///< the fluxes and the sums over pairs
+  double source_seconds = 0.0;     ///< the manufactured source
+  std::int64_t repeats = 0;
+
+  WorkCounts work;
+  std::int64_t quadrature_points = 0;
+  std::int64_t flow_evaluations = 0;  ///< particle positions computed after the start
+
+  std::int64_t steps = 0;              ///< done
+  double dt = 0.0, dt_smallest = 0.0;  ///< largest and smallest step
+  StepsAgainstBound against_bound;
+  LastState last;
+
+  /// Fields at T, or the last finite ones of a run that was given up, shape [N]. Where no solution is known, u_exact is
+  /// empty, or the reference at the particles.
+  std::vector<double> x, u, u_exact;
+};
+
+}  // namespace acstudy

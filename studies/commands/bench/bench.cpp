@@ -1,0 +1,126 @@
+#include "studies/commands/bench/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <unordered_map>
+
+#include "studies/reading/input_error.hpp"
+#include "studies/storing/bench_store.hpp"
+
+namespace acstudy {
+
+namespace {
+
+std::string name_of(const BenchCase& one) {
+  return fmt::format("{}, delta = {:.6g}, N = {}", scheme_label(one.c->scheme, one.c->scene->standing()), one.c->delta,
+                     one.c->N);
+}
+
+/// What differs between two results of one case although nothing may; empty if nothing does.
+std::string difference(const CaseResult& first, const CaseResult& now) {
+  if (std::bit_cast<std::uint64_t>(first.error_linf) != std::bit_cast<std::uint64_t>(now.error_linf)) {
+    return fmt::format("its error was {:.17g} and then {:.17g}", first.error_linf, now.error_linf);
+  }
+  for (const auto& [what, before, after] :
+       {std::tuple{"pairs", first.work.pairs, now.work.pairs},
+        {"weight builds", first.work.weight_builds, now.work.weight_builds},
+        {"velocity evaluations", first.work.velocity_evaluations, now.work.velocity_evaluations},
+        {"quadrature points", first.quadrature_points, now.quadrature_points},
+        {"flow evaluations", first.flow_evaluations, now.flow_evaluations},
+        {"steps", first.steps, now.steps}}) {
+    if (before != after) return fmt::format("it had {} {} and then {}", before, what, after);
+  }
+  return "";
+}
+
+void drop_fields(CaseResult& result) {
+  for (std::vector<double>* const field : {&result.x, &result.u, &result.u_exact}) *field = {};
+}
+
+}  // namespace
+
+Bench plan_bench(std::span<const Study> studies, const std::vector<int>& threads) {
+  Bench bench;
+  std::unordered_map<std::string, std::size_t> index_of;
+  for (const Study& study : studies) {
+    if (!study.judged_by_series()) {
+      throw InputError(fmt::format("{}: kind = \"{}\"; bench times the runs of convergence studies, so leave it out",
+                                   study.file, study.kind));
+    }
+    if (!study.scene->solved()) {
+      throw InputError(fmt::format(
+          "{}: bench sets run times against errors, and this scene has a reference in place of u", study.file));
+    }
+    for (const Series& series : study.series) {
+      for (const int count : threads) {
+        BenchSeries& planned = bench.series.emplace_back(BenchSeries{&study, &series, count, {}});
+        for (const Case& c : series.cases) {
+          const BenchCase one{.c = &c, .threads = count, .result = {}, .samples = {}};
+          const auto [entry, is_new] = index_of.try_emplace(bench_key(one), bench.cases.size());
+          if (is_new) bench.cases.push_back(one);
+          planned.cases.push_back(entry->second);
+        }
+      }
+    }
+  }
+  return bench;
+}
+
+BenchOutcome time_cases(Bench& bench, const BenchOptions& options, const BenchHooks& hooks,
+                        const std::atomic<bool>& stop) {
+  BenchOutcome outcome;
+  std::int64_t round = 0, session = 0;
+  for (const BenchCase& one : bench.cases) {
+    for (const Sample& sample : one.samples) {
+      round = std::max(round, sample.round);
+      session = std::max(session, sample.session);
+    }
+  }
+  ++session;
+  const auto needs_more = [&](const BenchCase& one) {
+    const std::int64_t runs = std::ssize(one.samples);
+    return one.timed() && (runs < options.runs || (runs < most_runs && one.total_seconds() < options.least_seconds));
+  };
+  /// False once the bench has to end.
+  const auto run = [&](BenchCase& one, CaseResult& now) {
+    now = hooks.run(*one.c, one.threads);
+    drop_fields(now);
+    if (!now.completed) return false;
+    if (!one.result.completed) {
+      one.result = now;
+    } else if (const std::string what = difference(one.result, now); !what.empty()) {
+      outcome.departs.push_back(fmt::format("{}: {}", name_of(one), what));
+    }
+    return true;
+  };
+
+  std::vector<BenchCase*> open;
+  CaseResult now;
+  for (BenchCase& one : bench.cases) {
+    if (!needs_more(one)) continue;
+    if (stop || !run(one, now)) return outcome;
+    if (one.timed()) open.push_back(&one);
+  }
+  while (!open.empty() && outcome.departs.empty()) {
+    ++round;
+    for (BenchCase* const one : open) {
+      if (stop || !run(*one, now)) return outcome;
+      one->samples.push_back({round, session, now.seconds, now.positions_seconds, now.weights_seconds,
+                              now.pairs_seconds, now.source_seconds});
+      ++outcome.runs;
+    }
+    std::erase_if(open, [&](const BenchCase* one) { return !needs_more(*one); });
+    if (hooks.after_round) hooks.after_round(round, open.size());
+  }
+  for (const BenchCase& one : bench.cases) {
+    if (one.timed()) continue;
+    outcome.failed.push_back(
+        fmt::format("{}: {}", name_of(one), one.result.failure.empty() ? one.result.blow_up : one.result.failure));
+  }
+  return outcome;
+}
+
+}  // namespace acstudy

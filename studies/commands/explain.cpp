@@ -1,0 +1,150 @@
+#include "studies/commands/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace acstudy {
+
+namespace {
+
+const char* text(SourceRule rule) {
+  switch (rule) {
+    case SourceRule::gauss:
+      return "a Gauss rule of the kernel's own weight";
+    case SourceRule::gsl:
+      return "adaptive GSL quadrature";
+    case SourceRule::boost:
+      return "adaptive Boost.Math quadrature";
+  }
+  return "";
+}
+
+/// What every series of the study does without, and why.
+std::string left_out(const Study& study) {
+  const auto any = [&](auto&& predicate) { return std::any_of(study.series.begin(), study.series.end(), predicate); };
+  std::string out;
+  const auto line = [&](const std::string& what) { out += "  - " + what + "\n"; };
+  if (study.scene->standing()) {
+    line(
+        "particle motion: b is absent, so no flow, no b terms; windows, weights and velocities once a case "
+        "(weight_builds = 1)");
+  }
+  if (!study.scene->solved()) {
+    line(study.scene->sourceless() ? "a source: f = 0" : "source quadrature: f is given (quadrature_points = 0)");
+  } else if (any([](const Series& s) { return !s.nonlocal_source; })) {
+    line("source quadrature where the source is local: f = u_t + (c u)_x (quadrature_points = 0)");
+  }
+  if (any([](const Series& s) { return s.scheme.model == 1; })) line("viscosity and midpoint velocities in Model I");
+  if (any([](const Series& s) { return s.cases.back().delta < s.cases.back().h; })) {
+    line("neighbors beyond the nearest where the horizon is below the spacing: 1 in Model I, 2 in Model II");
+  }
+  const auto one_stage = [](const Series& s) { return s.cases.front().integrator->stage_count() == 1; };
+  if (any(one_stage)) line("stage storage where the integrator has one stage");
+  return out.empty() ? "  - nothing\n" : out;
+}
+
+}  // namespace
+
+namespace {
+
+/// A study that is judged by what it measures.
+std::string explain_measurements(const Study& study) {
+  std::string out = fmt::format("{} - {} ({})\n\n", study.name, study.title, study.kind);
+  std::size_t cases = 0;
+  for (const Series& series : study.series) cases += series.cases.size();
+  for (const Measurement& measurement : study.measurements) out += "  " + measurement.name + "\n";
+  return out + fmt::format("\n{} measurements, {} cases run for them\n", study.measurements.size(), cases);
+}
+
+std::string solution(const SceneText& scene) {
+  if (!scene.u0) return fmt::format("  u = {}\n", scene.u);
+  return fmt::format("  u = {} at t = 0, not known later\n  f = {}\n", *scene.u0, scene.f.value_or("0"));
+}
+
+/// What errors are against where no solution is known, and how much of them is seen.
+std::string explain_reference(const Series& series, const ReferenceLevel& reference) {
+  const Case& finest = series.cases[series.levels() - 1];
+  const double missing = std::pow(reference.variable / series.variable(finest.h, finest.delta), series.theory.order);
+  std::string out = fmt::format("  reference: the run at N = {}", reference.N);
+  if (series.theory.order > 0.0) {
+    out += fmt::format("; to it the finest level has {:.0f} % of its error, which the judge makes up for",
+                       100.0 * (1.0 - missing));
+  }
+  out += "\n";
+  if (series.levels() < 4) out += "  fewer than four levels beside the reference: an order is hardly determined\n";
+  return out;
+}
+
+}  // namespace
+
+std::string explain(const Study& study) {
+  if (!study.judged_by_series()) return explain_measurements(study);
+  const SceneText& scene = study.scene->text();
+  std::string out = fmt::format("{} - {}\n\n", study.name, study.title);
+  out += fmt::format("scene {}: period {}, T = {}\n  c = {}\n  b = {}\n{}",
+                     scene.name.empty() ? "(inline)" : scene.name, scene.period, scene.T, scene.c,
+                     study.scene->standing() ? "0 (particles stand still)" : *scene.b, solution(scene));
+  if (!study.scene->standing()) {
+    out += fmt::format("  flow = {}\n", scene.flow ? *scene.flow : "integrated from x' = b(x) to round-off");
+  }
+  std::set<std::string> said;
+  for (const Series& series : study.series) {
+    const Case& c = series.cases.front();
+    const std::string stepping = fmt::format("time: {}, step {} at most\n", c.integrator->name, c.step.label());
+    if (said.insert(stepping).second) out += stepping;
+  }
+
+  std::size_t count = 0;
+  for (const Series& series : study.series) {
+    out += fmt::format("\n{}, source {}\n", series.label(),
+                       series.against_reference ? "given"
+                       : series.nonlocal_source ? "nonlocal"
+                                                : "local");
+    const Case& first = series.cases.front();
+    if (first.start != Start{}) out += fmt::format("  start: {}\n", first.start.label());
+    if (first.step.bound != StepRule::Bound::none) {
+      out += fmt::format("  dt and steps: by the lemma at the start; while running, by the {} of the moment\n",
+                         first.step.bound == StepRule::Bound::lemma ? "smallest gap" : "rows of the scheme");
+    }
+    if (series.nonlocal_source) out += fmt::format("  source by {}\n", text(study.source_rule));
+    if (series.theory.order > 0.0) {
+      out += fmt::format("  theory: order {:g} in {} ({})\n", series.theory.order, series.theory.variable,
+                         series.theory.statement);
+    } else {
+      out += fmt::format("  theory: the error does not vanish ({})\n", series.theory.statement);
+    }
+    if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
+    out += fmt::format("  the gate expects: {}\n", name_of(series.expected));
+    if (series.scheme.model == 2) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
+    out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps",
+                       "neighbors", "CFL");
+    for (const Case& c : series.cases) {
+      const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
+      out +=
+          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}{}\n", c.N, c.h, c.delta, c.dt,
+                      c.steps, (series.scheme.model == 1 ? 1 : 2) * static_cast<std::int64_t>(per_side), c.cfl(),
+                      c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "",
+                      series.against_reference && &c == &series.cases.back() ? "  reference" : "");
+      ++count;
+    }
+    if (series.scheme.model == 2 && series.scheme.kernel.name != "cubic-spline") {
+      out +=
+          "  the bound of Lemma 3.3, 1, is not enough for every kernel: see the section on Model II of "
+          "docs/equations.md\n";
+    }
+    if (series.scheme.mu && *series.scheme.mu < study.scene->max_relative_velocity()) {
+      out += fmt::format("  mu is below max|c - b| = {:.6g}: Lemma 3.3 does not promise stability\n",
+                         study.scene->max_relative_velocity());
+    }
+  }
+  out += fmt::format(
+      "\n{} series, {} cases; neighbors of uniform particles, CFL at the start\n\nleft out, because nothing here needs "
+      "it:\n{}",
+      study.series.size(), count, left_out(study));
+  return out;
+}
+
+}  // namespace acstudy

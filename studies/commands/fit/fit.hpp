@@ -1,0 +1,60 @@
+#pragma once
+
+/// @file
+/// acstudy fit: the judgement of a table of errors, wherever they come from.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/judging/orders.hpp"
+
+namespace acstudy {
+
+/// A table, the names of its columns, and what is known of its errors.
+struct FitRequest {
+  std::string file;                             ///< "-": standard input
+  std::string variable = "h";                   ///< column of the variable
+  std::string count;                            ///< in its place: column of a number n of cells; h = n^(-1/dimension)
+  double dimension = 1.0;                       ///< of the space that the cells fill
+  std::vector<std::string> errors = {"error"};  ///< each one column, several with commas, or "all"
+  std::string weight;                           ///< empty: all levels weigh the same
+  std::string levels;                           ///< "A:B", "A:" or ":B", from 1, coarse to fine; empty: all
+  std::optional<double> order;                  ///< 0: the error must settle
+  JudgeOptions options = {};
+  std::vector<std::string> values, differences;  ///< in place of errors: columns of values, of their differences
+
+  Verdict wanted() const;  ///< what passes
+};
+
+/// The judgement of one column of errors.
+struct Fit {
+  std::string error;          ///< name of the column
+  std::vector<Level> levels;  ///< those that were asked for, coarse to fine
+  Judgement judgement;
+};
+
+struct Fits {
+  FitRequest request;
+  bool several = false;  ///< several columns were asked for, even if there is only one
+  std::vector<Fit> columns;
+  std::vector<std::string> left_out;  ///< what "all" leaves out and why
+
+  /// True if the errors of every column have the order that was asked for; for order 0, if they settle; without an
+  /// order, if they determine one.
+  bool passes() const;
+};
+
+/// Reads a table and judges its errors, in columns that NumberTable reads. Rows may stand in any order. An error may be
+/// nan or inf, a variable, a count or a weight must be positive. Where the variable grows as the errors fall, and is
+/// whole as a number of cells, the verdict is `inconclusive` and its reason the remedy.
+/// @throws InputError
+Fits fit_table(const FitRequest& request);
+
+/// Levels, estimates, verdict and reason of every column, for people.
+std::string as_text(const Fits& fits);
+
+/// The same as one JSON object, with an array `columns` if several were asked for; null for what is not finite.
+std::string as_json(const Fits& fits);
+
+}  // namespace acstudy

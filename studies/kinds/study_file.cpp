@@ -1,0 +1,75 @@
+#include "studies/kinds/study_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "studies/kinds/kinds.hpp"
+#include "studies/reading/toml_table.hpp"
+
+namespace acstudy {
+
+Study parse_study(const std::string& text, const std::string& file) {
+  toml::table document;
+  try {
+    document = toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    const auto at = error.source().begin;
+    Place{file, at.line, at.column}.fail("not TOML: " + std::string(error.description()));
+  }
+  const Table root(document, "the study", file);
+
+  Study study;
+  study.file = file;
+  study.text = text;
+  const Table header = root.sub_table("study");
+  header.allow({"name", "title", "kind"});
+  const toml::node* const kind_node = header.find("kind");
+  study.kind = kind_node == nullptr ? kinds.front().name : header.text("kind", *kind_node, "kind = \"convergence\"");
+  const auto* const kind =
+      std::find_if(kinds.begin(), kinds.end(), [&](const Kind& known) { return known.name == study.kind; });
+  if (kind == kinds.end()) {
+    std::vector<std::string> known;
+    for (const Kind& one : kinds) known.push_back("\"" + std::string(one.name) + "\"");
+    header.place(*kind_node)
+        .fail(fmt::format("kind = {}; it must be one of {}", in_quotes(study.kind), fmt::join(known, ", ")));
+  }
+  study.name = header.text("name", "name = \"fig2\"");
+  if (study.name.empty() ||
+      study.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos) {
+    header.place(*header.find("name"))
+        .fail(fmt::format("name = {}; it names result files and may use a-z, 0-9 and - only", in_quotes(study.name)));
+  }
+  constexpr std::size_t most_letters =
+      200;  // a file system takes 255, and files that are being written have longer names
+  if (study.name.size() > most_letters) {
+    header.place(*header.find("name"))
+        .fail(fmt::format("name = {}; it names result files and may have at most {} letters: write a shorter one",
+                          in_quotes(study.name), most_letters));
+  }
+  if (study.name == "cost") {
+    header.place(*header.find("name"))
+        .fail("name = \"cost\"; the report gives that name to its run-time figure, choose another");
+  }
+  study.title = header.find("title") != nullptr ? header.text("title", "title = \"...\"") : study.name;
+  kind->read(root, study);
+  return study;
+}
+
+Study read_study(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) {
+    throw InputError(fmt::format("{}: cannot read the study file; name an existing, non-empty file", file));
+  }
+  constexpr std::size_t most = 60'000;  // an attribute of the result file holds it
+  if (text.str().size() > most) {
+    throw InputError(
+        fmt::format("{}: {} bytes; a study file may have at most {}: split it", file, text.str().size(), most));
+  }
+  return parse_study(text.str(), file);
+}
+
+}  // namespace acstudy

@@ -1,0 +1,16 @@
+#include "studies/models/scheme_choice.hpp"
+
+#include <fmt/format.h>
+
+namespace acstudy {
+
+std::string KernelChoice::label() const { return name == "power" ? fmt::format("power({})", alpha) : name; }
+
+std::string scheme_label(const SchemeChoice& scheme, bool standing) {
+  std::string text = scheme.model == 1 ? "Model I" : "Model II";
+  if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
+  text += ", " + scheme.kernel.label();
+  return scheme.control.empty() ? text : fmt::format("{} ({})", scheme.control, text);
+}
+
+}  // namespace acstudy

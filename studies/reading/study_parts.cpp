@@ -1,0 +1,420 @@
+#include "studies/reading/study_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "studies/models/control_choice.hpp"
+#include "studies/models/theory.hpp"
+
+namespace acstudy {
+
+namespace {
+
+/// reference, u0 and f of a scene whose solution is not known; true if it is one.
+bool read_unsolved(const Table& table, SceneText& text, Solution solution) {
+  const toml::node* const reference = table.find("reference");
+  if (reference == nullptr) {
+    for (const char* const key : {"u0", "f"}) {
+      const toml::node* const node = table.find(key);
+      if (node == nullptr) continue;
+      table.place(*node).fail(fmt::format(
+          "{} goes with reference = \"finest\", where no solution is known; u fixes it, so leave out one or the other",
+          key));
+    }
+    return false;
+  }
+  const Place at = table.place(*reference);
+  if (solution == Solution::needed) {
+    at.fail("a study of this kind needs the exact solution; write u = \"cos(x-t)\" in place of reference, u0 and f");
+  }
+  table.choice<int>("reference", *reference, {{"finest", 0}});
+  if (table.find("u") != nullptr) {
+    at.fail("u gives the exact solution, and reference is for scenes without one; leave out one or the other");
+  }
+  std::size_t offset = 0;
+  text.u0 = table.expression_text("u0", "u0 = \"cos(x)\", the values at t = 0", offset);
+  if (table.find("f") != nullptr) text.f = table.expression_text("f", "f = \"sin(x-t)\"", offset);
+  return true;
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution) {
+  SceneText text;
+  const toml::node* named = table.find("use");
+  if (named != nullptr) {
+    table.allow({"use", "T"});
+    const std::string name = table.text("use", "use = \"lee-du-2019\"");
+    std::vector<std::string> known;
+    for (const auto& scene : named_scenes()) known.push_back(scene.name);
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      table.place(*named).fail(
+          fmt::format("unknown scene {}; known scenes: {}", in_quotes(name), fmt::join(known, ", ")));
+    }
+    text = named_scenes()[found - known.begin()];
+  } else {
+    table.allow({"use", "period", "T", "c", "b", "u", "flow", "reference", "u0", "f"});
+  }
+  std::size_t offset = 0;
+  if (named == nullptr) {
+    if (table.find("c") == nullptr && table.find("u") == nullptr) {
+      table.place().fail(
+          "[scene] names no scene and gives no fields; write use = \"lee-du-2019\", or period, T, c and u");
+    }
+    text.period = table.expression_text("period", "period = \"2*pi\"", offset);
+    text.c = table.expression_text("c", "c = \"cos(2*x)/3\"", offset);
+    if (!read_unsolved(table, text, solution)) {
+      text.u = table.expression_text(
+          "u", "u = \"cos(x-t)\", or reference = \"finest\" and u0 = \"cos(x)\" where no solution is known", offset);
+    }
+    if (table.find("b") != nullptr) text.b = table.expression_text("b", "b = \"sin(x)\"", offset);
+    if (table.find("flow") != nullptr) text.flow = table.expression_text("flow", "flow = \"x + t\"", offset);
+  }
+  if (named == nullptr || table.find("T") != nullptr) text.T = table.expression_text("T", "T = 1", offset);
+  try {
+    return std::make_shared<const Scene>(text);
+  } catch (const SceneError& error) {
+    const toml::node* const node = table.find(error.field);
+    if (node == nullptr) table.place().fail(error.what());
+    const bool quoted = node->is_string();
+    table.place(*node).shifted((quoted ? 1 : 0) + error.position).fail(error.what());
+  }
+}
+
+std::shared_ptr<const Scene> read_scene_with_advection(const Table& table) {
+  auto scene = read_scene(table);
+  if (scene->max_relative_velocity() == 0.0) {
+    table.place().fail("c - b is zero everywhere, so there is no operator to study; choose another c or b");
+  }
+  return scene;
+}
+
+int read_model(const Table& table) {
+  const toml::node& model = table.need("model", "model = 1");
+  const auto number = model.value_exact<std::int64_t>();
+  if (!number || (*number != 1 && *number != 2)) {
+    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
+  }
+  return static_cast<int>(*number);
+}
+
+KernelChoice read_kernel(const Table& scheme, int model) {
+  const toml::node& node = scheme.need("kernel", "kernel = \"cubic-spline\"");
+  static const toml::table no_table;
+  const toml::table* const table = node.as_table();
+  const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
+  const toml::node* name_node = &node;
+  if (table != nullptr) {
+    inner.allow({"name", "alpha"});
+    name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
+  }
+  KernelChoice kernel{scheme.text("kernel", *name_node, "kernel = \"inverse\"")};
+  std::vector<std::string_view> known;
+  for (const NamedKernel& named : named_kernels) known.push_back(named.name);
+  if (std::find(known.begin(), known.end(), kernel.name) == known.end()) {
+    scheme.place(*name_node)
+        .fail(fmt::format("unknown kernel {}; known kernels: {}", in_quotes(kernel.name), fmt::join(known, ", ")));
+  }
+
+  const toml::node* const alpha = table != nullptr ? inner.find("alpha") : nullptr;
+  if (alpha != nullptr) {
+    if (kernel.name != "power") {
+      inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
+    }
+    kernel.alpha = inner.number("alpha", *alpha);
+    if (kernel.alpha >= 2.0) {
+      inner.place(*alpha).fail(
+          fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
+    }
+    if (model == 2 && !integrable(kernel)) {
+      inner.place(*alpha).fail(fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
+    }
+  } else if (kernel.name == "power" && table != nullptr) {
+    inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
+  } else if (kernel.name == "power") {
+    scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
+  }
+  if (model == 2 && !integrable(kernel)) {
+    scheme.place(*name_node)
+        .fail(fmt::format("Model II needs an integrable kernel, and the {} kernel is not; write \"cubic-spline\" or "
+                          "{{ name = \"power\", alpha = 0.5 }} with alpha < 1",
+                          kernel.name));
+  }
+  return kernel;
+}
+
+SchemeChoice read_scheme(const Table& table, const Scene& scene) {
+  table.allow({"model", "divergence", "kernel", "mu"});
+  SchemeChoice scheme{};
+  scheme.model = read_model(table);
+  const toml::node* const divergence = table.find("divergence");
+  if (divergence != nullptr) {
+    scheme.nonlocal_divergence = table.choice<bool>("divergence", *divergence, {{"local", false}, {"nonlocal", true}});
+  } else if (!scene.standing()) {
+    table.need("divergence", "divergence = \"local\"");
+  }
+  scheme.kernel = read_kernel(table, scheme.model);
+  if (const toml::node* const mu = table.find("mu")) {
+    if (scheme.model == 1) table.place(*mu).fail("Model I has no viscosity; leave mu out");
+    scheme.mu = table.number("mu", *mu);
+    if (*scheme.mu < 0.0) {
+      table.place(*mu).fail(fmt::format("mu = {}; a viscosity bound must be finite and not negative", *scheme.mu));
+    }
+  }
+  return scheme;
+}
+
+std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene) {
+  std::vector<SchemeEntry> entries;
+  std::set<std::string> keys;
+  double widest = -1.0;
+  for (const Table& table : root.array_of_tables("scheme")) {
+    const SchemeChoice scheme = read_scheme(table, scene);
+    if (scheme.model == 2 && !scheme.mu && widest < 0.0) widest = scene.max_relative_velocity();
+    const double mu = scheme.model == 1 ? 0.0 : scheme.mu.value_or(widest);
+    if (!keys.insert(fmt::format("{}|{}|{}|{}", scheme.model, scheme.nonlocal_divergence, scheme.kernel.label(), mu))
+             .second) {
+      table.place().fail("the same scheme a second time; leave one of them out");
+    }
+    entries.push_back({scheme, mu});
+  }
+  return entries;
+}
+
+std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene) {
+  std::vector<Subject> subjects;
+  for (const SchemeEntry& entry : read_schemes(root, *scene)) {
+    for (const Arrangement arrangement : arrangements) {
+      if (arrangement == Arrangement::moved && scene->standing()) continue;
+      subjects.push_back({entry.scheme, entry.mu, scene, arrangement});
+    }
+  }
+  return subjects;
+}
+
+std::vector<double> read_positive(const Table& table, std::string_view key, std::string_view example) {
+  std::vector<double> values;
+  for (const toml::node& item : table.list(key, example)) {
+    values.push_back(table.number(key, item));
+    if (values.back() <= 0.0) {
+      table.place(item).fail(fmt::format("{} contains {}; every entry must be positive and finite: write {}", key,
+                                         values.back(), example));
+    }
+  }
+  return values;
+}
+
+SchemeEntry read_control(const Table& table, const Scene& scene) {
+  const std::string name = table.text("name", "name = \"downwind\"");
+  const auto control = std::find_if(named_controls.begin(), named_controls.end(),
+                                    [&](const NamedControl& known) { return known.name == name; });
+  if (control == named_controls.end()) {
+    std::vector<std::string> known;
+    for (const NamedControl& one : named_controls) known.push_back("\"" + std::string(one.name) + "\"");
+    table.place(*table.find("name"))
+        .fail(fmt::format("name = {}; it must be one of {}", in_quotes(name), fmt::join(known, ", ")));
+  }
+  const Table scheme_table = table.sub_table("scheme");
+  SchemeChoice scheme = read_scheme(scheme_table, scene);
+  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model)) {
+    scheme_table.place().fail(fmt::format(
+        "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
+        name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
+  }
+  if (name == misprinted_trajectories && scene.text().b != "sin(x)") {
+    table.place().fail(fmt::format("{} are those of b = sin(x); use the scene \"lee-du-2019\"", name));
+  }
+  scheme.control = name;
+  return {scheme, scheme.model == 1 ? 0.0 : scheme.mu.value_or(scene.max_relative_velocity())};
+}
+
+Sweep read_sweep(const Table& table, const Scene& scene) {
+  table.allow({"N", "ratios", "horizons"});
+  Sweep sweep{read_levels(table), read_positive(table, "ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
+  if (table.find("horizons") != nullptr) {
+    sweep.horizons = read_positive(table, "horizons", "horizons = [0.2]");
+    for (const double delta : sweep.horizons) {
+      check_horizon(scene, sweep.N.front(), delta, table.place(*table.find("horizons")));
+    }
+  }
+  return sweep;
+}
+
+namespace {
+
+Stepping read_time(const Table& time) {
+  time.allow({"integrator", "step", "safety", "bound", "expect"});
+  std::vector<std::pair<std::string, const Integrator*>> words;
+  for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
+  Stepping stepping{
+      .integrator = time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), words),
+      .rule = {},
+      .step = std::nullopt,
+      .at_step = time.place(time.need("step", "step = \"h/4\""))};
+  if (const toml::node* const expect = time.find("expect")) stepping.expect = read_expected(time, *expect);
+  StepRule& rule = stepping.rule;
+  if (time.find("step")->value_exact<std::string>() == "cfl") {
+    rule = {.bound = StepRule::Bound::lemma, .safety = 0.9, .text = "cfl"};
+    if (const toml::node* const safety = time.find("safety")) {
+      rule.safety = time.number("safety", *safety);
+      if (rule.safety <= 0.0) {
+        time.place(*safety).fail(fmt::format(
+            "safety = {}; the fraction of the bound must be positive and finite: write safety = 0.9", rule.safety));
+      }
+    }
+    if (const toml::node* const bound = time.find("bound")) {
+      rule.bound = time.choice<StepRule::Bound>("bound", *bound,
+                                                {{"lemma", StepRule::Bound::lemma}, {"rows", StepRule::Bound::rows}});
+    }
+    return stepping;
+  }
+  for (const char* const key : {"safety", "bound"}) {
+    if (const toml::node* const node = time.find(key)) {
+      time.place(*node).fail(fmt::format("{} goes with step = \"cfl\"; leave it out", key));
+    }
+  }
+  stepping.step = time.expression("step", "step = \"h/4\"", {"h", "N"});
+  rule.text = stepping.step->text();
+  return stepping;
+}
+
+SourceRule read_source_rule(const Table& root) {
+  if (root.find("source") == nullptr) return SourceRule::gauss;
+  const Table source = root.sub_table("source");
+  source.allow({"rule"});
+  return source.choice<SourceRule>(
+      "rule", source.need("rule", "rule = \"gauss\""),
+      {{"gauss", SourceRule::gauss}, {"gsl", SourceRule::gsl}, {"boost", SourceRule::boost}});
+}
+
+}  // namespace
+
+std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& study, Solution solution) {
+  study.scene = read_scene(root.sub_table("scene"), solution);
+  study.source_rule = read_source_rule(root);
+  const toml::node* const several = root.find("time");
+  if (several == nullptr || !several->is_array()) return {read_time(root.sub_table("time"))};
+
+  std::vector<Stepping> steppings;
+  std::set<std::string> labels;
+  for (const Table& table : root.array_of_tables("time")) {
+    Stepping& stepping = steppings.emplace_back(read_time(table));
+    stepping.label = fmt::format("{}, step {}", stepping.integrator->name, stepping.rule.label());
+    if (!labels.insert(stepping.label).second) {
+      table.place().fail("the same integrator and steps a second time; leave one of them out");
+    }
+  }
+  if (steppings.size() == 1) steppings.front().label.clear();
+  return steppings;
+}
+
+Stepping read_problem(const Table& root, Study& study) {
+  std::vector<Stepping> steppings = read_problem_with_steppings(root, study);
+  if (steppings.size() > 1) {
+    root.place(*root.find("time")).fail("a study of this kind steps in one way; leave one [[time]]");
+  }
+  if (steppings.front().expect) {
+    root.place(*root.find("time"))
+        .fail("a study of this kind expects nothing of a way to step; leave expect out of it");
+  }
+  return std::move(steppings.front());
+}
+
+void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at) {
+  const double h = scene.period() / static_cast<double>(N);
+  if (!std::isfinite(delta) || delta <= 0.0) {
+    at.fail(
+        fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must be positive and finite: write an expression "
+                    "in h and N such as \"4*h\"",
+                    delta, h, N));
+  }
+  if (delta >= 0.5 * scene.period()) {
+    at.fail(
+        fmt::format("delta = {:.6g} at h = {:.6g} (N = {}); a horizon must stay below half the period, {:.6g}, or a "
+                    "particle would meet its own images",
+                    delta, h, N, 0.5 * scene.period()));
+  }
+}
+
+Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
+               bool nonlocal_source, const Place& at, const Start& start) {
+  const Scene& scene = *study.scene;
+  const double count = static_cast<double>(N), h = scene.period() / count;
+  check_horizon(scene, N, delta, at);
+  Case c{.scene = study.scene,
+         .scheme = entry.scheme,
+         .mu = entry.mu,
+         .nonlocal_source = nonlocal_source,
+         .source_rule = study.source_rule,
+         .integrator = time.integrator,
+         .N = N,
+         .h = h,
+         .delta = delta,
+         .dt = 0.0,
+         .steps = 0,
+         .start = start,
+         .step = time.rule};
+  const double bound = time.step ? (*time.step)({h, count}) : time.rule.safety * c.lemma_bound(h * start.smallest_gap);
+  if (!time.step && std::isinf(bound)) {
+    time.at_step.fail(
+        fmt::format("step = \"cfl\" where {} is zero, so that no bound limits a step; write an expression "
+                    "in h and N such as \"h/4\"",
+                    entry.scheme.model == 1 ? "c - b" : "mu"));
+  }
+  if (!std::isfinite(bound) || bound <= 0.0) {
+    time.at_step.fail(fmt::format(
+        "step = {:.6g} at h = {:.6g} (N = {}); a time step must be positive and finite: write an expression "
+        "in h and N such as \"h/4\"",
+        bound, h, N));
+  }
+  if (scene.T() / bound > 1e12) {
+    time.at_step.fail(fmt::format("step = {:.6g} at h = {:.6g} (N = {}) asks for {:.3g} steps; the most is 1e12", bound,
+                                  h, N, scene.T() / bound));
+  }
+  c.steps = steps_for(scene.T(), bound);
+  c.dt = c.steps == 0 ? 0.0 : scene.T() / static_cast<double>(c.steps);
+  return c;
+}
+
+Series make_series(const Study& study, const Stepping& time, const SchemeEntry& entry, const PathChoice& path,
+                   const Place& at_delta) {
+  Series series{.scheme = entry.scheme,
+                .path = path.name,
+                .delta_text = path.delta.text(),
+                .nonlocal_source = path.nonlocal_source,
+                .theory = {},
+                .expected = Verdict::confirmed,
+                .cases = {}};
+  series.stepping = time.label;
+  series.against_reference = path.against_reference;
+  for (const std::int64_t N : path.N) {
+    const double period = study.scene->period(), gap = path.start.smallest_gap * period / static_cast<double>(N);
+    if (period + gap == period) {
+      path.at_start.fail(
+          fmt::format("smallest_gap = {:g} is a gap of {:.3g} at N = {}, which positions near {:.3g} cannot "
+                      "hold; write a larger one",
+                      path.start.smallest_gap, gap, N, period));
+    }
+    const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
+    series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta, path.start));
+  }
+  const Case& finest = series.cases[series.levels() - 1];
+  const bool fixed = finest.delta == series.cases.front().delta && series.cases.size() > 1;
+  // The limit of the reference at a fixed horizon is the nonlocal model with its source.
+  series.theory = theory_for(entry.scheme, study.scene->standing(),
+                             path.nonlocal_source || (fixed && path.against_reference), fixed, finest.delta < finest.h);
+  if (path.order) {
+    series.theory.order = *path.order;
+    series.theory.statement = "given by the study";
+  }
+  series.expected = time.expect
+                        ? *time.expect
+                        : path.expect.value_or(series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
+  return series;
+}
+
+}  // namespace acstudy

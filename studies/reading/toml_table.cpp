@@ -1,0 +1,140 @@
+#include "studies/reading/toml_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "studies/reading/input_error.hpp"
+
+namespace acstudy {
+
+namespace {
+
+/// Control characters of a quoted value spelled out: a message is one line.
+std::string on_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == '\n') {
+      line += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      line += fmt::format("\\x{:02x}", static_cast<int>(c));
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+}  // namespace
+
+void Place::fail(const std::string& message) const {
+  throw InputError(fmt::format("{}:{}:{}: {}", file, line, column, on_one_line(message)));
+}
+
+void Table::allow(const std::vector<std::string>& known) const {
+  for (const auto& [key, value] : table_) {
+    if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+      at(key.source())
+          .fail(fmt::format("unknown key {} in {}; known keys: {}", in_quotes(key.str()), title_,
+                            fmt::join(known, ", ")));
+    }
+  }
+}
+
+const toml::node& Table::need(std::string_view key, std::string_view example) const {
+  const toml::node* const node = find(key);
+  if (node == nullptr) place().fail(fmt::format("{} has no \"{}\"; write, for example, {}", title_, key, example));
+  return *node;
+}
+
+std::string Table::text(std::string_view key, const toml::node& node, std::string_view example) const {
+  if (const auto value = node.value_exact<std::string>()) return *value;
+  place(node).fail(fmt::format("{} must be a string, not {}; write, for example, {}", key, described(node), example));
+}
+
+std::string Table::expression_text(std::string_view key, std::string_view example, std::size_t& offset) const {
+  const toml::node& node = need(key, example);
+  offset = 0;
+  if (node.is_floating_point()) return fmt::format("{:.17g}", number(key, node));
+  if (const auto value = node.value_exact<std::int64_t>()) return fmt::format("{}", *value);
+  offset = 1;
+  if (const auto value = node.value_exact<std::string>()) return *value;
+  place(node).fail(fmt::format("{} must be an expression or a number, not {}; write, for example, {}", key,
+                               described(node), example));
+}
+
+Expression Table::expression(std::string_view key, std::string_view example,
+                             const std::vector<std::string>& variables) const {
+  std::size_t offset = 0;
+  const std::string text = expression_text(key, example, offset);
+  try {
+    return Expression(text, variables);
+  } catch (const ExpressionError& error) {
+    const bool too_long = text.size() > Expression::most_letters;  // then the error begins with the text
+    const std::string said = too_long ? "" : " = " + in_quotes(text);
+    place(*find(key)).shifted(offset + error.position).fail(fmt::format("{}{}: {}", key, said, error.what()));
+  }
+}
+
+double Table::number(std::string_view key, const toml::node& node) const {
+  const auto value = node.value<double>();
+  if (!value || !node.is_number()) place(node).fail(fmt::format("{} must be a number, not {}", key, described(node)));
+  if (!std::isfinite(*value)) place(node).fail(fmt::format("{} = {}; it must be finite", key, described(node)));
+  return *value;
+}
+
+std::int64_t Table::whole(std::string_view key, const toml::node& node, std::int64_t least, std::int64_t most) const {
+  const auto value = node.value_exact<std::int64_t>();
+  if (!value || *value < least || *value > most) {
+    place(node).fail(
+        fmt::format("{} = {}; it must be a whole number from {} to {}", key, described(node), least, most));
+  }
+  return *value;
+}
+
+const toml::array& Table::list(std::string_view key, std::string_view example) const {
+  const toml::node& node = need(key, example);
+  const toml::array* const array = node.as_array();
+  if (array == nullptr || array->empty()) {
+    place(node).fail(fmt::format("{} must be a list, not {}; write, for example, {}", key,
+                                 array == nullptr ? described(node) : "an empty list", example));
+  }
+  return *array;
+}
+
+std::vector<Table> Table::array_of_tables(std::string_view key) const {
+  const toml::node* const node = find(key);
+  const std::string title = fmt::format("[[{}]]", key);
+  if (node == nullptr) Place{file_, 1, 1}.fail(fmt::format("the study has no {}; add at least one", title));
+  const toml::array* const array = node->as_array();
+  if (array == nullptr || !array->is_homogeneous(toml::node_type::table)) {
+    place(*node).fail(fmt::format("{} must be a list of tables; write {} above its keys", key, title));
+  }
+  std::vector<Table> tables;
+  for (const toml::node& item : *array) tables.emplace_back(*item.as_table(), title, file_);
+  return tables;
+}
+
+Table Table::sub_table(std::string_view key) const {
+  const toml::node* const node = find(key);
+  if (node == nullptr) Place{file_, 1, 1}.fail(fmt::format("the study has no [{}]; add it", key));
+  if (!node->is_table()) place(*node).fail(fmt::format("{0} must be a table; write [{0}] above its keys", key));
+  return {*node->as_table(), fmt::format("[{}]", key), file_};
+}
+
+std::string Table::described(const toml::node& node) {
+  std::ostringstream out;
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "an array";
+  if (const auto value = node.value_exact<std::string>()) return in_quotes(*value);
+  if (const auto value = node.value_exact<double>()) {
+    const std::string text = fmt::format("{}", *value);
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
+  node.visit([&](const auto& n) { out << n; });
+  return out.str();
+}
+
+}  // namespace acstudy

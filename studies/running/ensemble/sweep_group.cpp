@@ -1,0 +1,204 @@
+#include "studies/running/ensemble/sweep_group.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "solver/far/far_sweeps.hpp"
+#include "solver/vector/clones.hpp"
+#include "studies/models/kernel_choice.hpp"
+#include "studies/models/scheme.hpp"
+
+namespace acstudy {
+
+namespace {
+
+ACSTUDY_VECTOR_CLONES void product(const double* a, const double* b, std::span<double> out) {
+  for (std::size_t j = 0; j < out.size(); ++j) out[j] = a[j] * b[j];
+}
+
+}  // namespace
+
+struct SweepGroup::Kernel {
+  std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel> kernel;
+  SweepKernel sweep;
+
+  explicit Kernel(const KernelChoice& choice)
+      : kernel(with_kernel(choice, [](const auto& k) -> decltype(kernel) { return k; })) {
+    std::visit(
+        [&]<class K>(const K& k) {
+          if constexpr (std::is_same_v<K, InverseKernel>) {
+            sweep.form = SweepKernel::Form::inverse;
+          } else if constexpr (std::is_same_v<K, CubicSplineKernel>) {
+            sweep.form = SweepKernel::Form::cubic_spline;
+          } else {
+            sweep.form = SweepKernel::Form::scalar;
+          }
+          sweep.kernel = &k;
+          sweep.first_moment = [](const void* itself, double z) {
+            return static_cast<const K*>(itself)->first_moment(z);
+          };
+          if constexpr (IntegrableKernel<K>) {
+            sweep.mass = [](const void* itself, double z) { return static_cast<const K*>(itself)->mass(z); };
+          }
+        },
+        kernel);
+  }
+};
+
+SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
+    : particles_(particles),
+      kernel_(std::make_unique<Kernel>(c.scheme.kernel)),
+      model_(c.scheme.model),
+      delta_(c.delta),
+      mu_(c.mu),
+      kernel_label_(c.scheme.kernel.label()) {
+  if (!c.scene->standing()) return;
+  const std::unique_ptr<Scheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
+  Particles at_rest(particles.size(), c.scene->period(), c.delta);
+  at_rest.place(particles.x.values());
+  readable->place(at_rest);
+  RateMatrix R;
+  readable->matrix(R);
+  standing_ = std::make_unique<BandedMatrix>(R, sweeps().lanes);
+  standing_pairs_ = std::ssize(R.value) - std::ssize(particles.x);
+  work_.weight_builds = 1;
+}
+
+SweepGroup::~SweepGroup() = default;
+SweepGroup::SweepGroup(SweepGroup&&) noexcept = default;
+
+bool SweepGroup::takes(const Case& c) const {
+  const SweptValues* const there = c.scheme.nonlocal_divergence ? nonlocal_ : local_;
+  return there == nullptr && c.scheme.model == model_ && c.delta == delta_ && c.mu == mu_ &&
+         c.scheme.kernel.label() == kernel_label_;
+}
+
+void SweepGroup::add(const Case& c, SweptValues& values) {
+  // Where particles stand still the two are one and the same; each has its own place all the same.
+  (c.scheme.nonlocal_divergence ? nonlocal_ : local_) = &values;
+}
+
+void SweepGroup::remove(const SweptValues& values) {
+  if (local_ == &values) local_ = nullptr;
+  if (nonlocal_ == &values) nonlocal_ = nullptr;
+}
+
+void SweepGroup::prepare(const Piece& piece, Laps& laps) {
+  if (standing_ || model_ != 1) return;
+  for (SweptValues* values : {local_, nonlocal_}) {
+    if (values == nullptr) continue;
+    product(particles_.c_hat.at(piece.begin), values->u.at(piece.begin), piece.of(values->flux.values()));
+  }
+  laps.end_of(seconds);
+}
+
+void SweepGroup::rates(Team& team, const AndThen& and_then) {
+  standing_ ? sweep_standing(team, and_then) : sweep_moving(team, and_then);
+}
+
+void SweepGroup::sweep_standing(Team& team, const AndThen& and_then) {
+  const std::ptrdiff_t lanes = sweeps().lanes;
+  team.timed(seconds, [&] {
+    for (SweptValues* values : {local_, nonlocal_}) {
+      if (values != nullptr) values->u.wrap(standing_->reach);
+    }
+  });
+  team.each(std::ssize(particles_.x), 32, [&](const Piece& piece) {
+    Laps laps(piece);
+    for (SweptValues* values : {local_, nonlocal_}) {
+      if (values == nullptr) continue;
+      sweeps().banded(standing_->blocks.data(), standing_->value.data(), values->u.at(0), values->rate.data(),
+                      piece.begin / lanes, (piece.end + lanes - 1) / lanes);
+    }
+    laps.end_of(seconds);
+    and_then(piece);
+  });
+  work_.pairs += standing_pairs_;
+}
+
+void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
+  const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(delta_), lanes = sweeps().lanes;
+  const auto scheme = [&](SweptValues* values) {
+    SweepScheme swept;
+    if (values == nullptr) return swept;
+    if (model_ == 1) {
+      values->flux.wrap(reach);
+      swept.flux = values->flux.at(0);
+    }
+    values->u.wrap(model_ == 1 ? lanes : reach);
+    swept.u = values->u.at(0);
+    swept.rate = values->rate.data();
+    return swept;
+  };
+  const auto begin_of = [](const PeriodicArray& field) { return field.size() > 0 ? field.at(0) : nullptr; };
+  SweepScheme local, nonlocal;
+  team.timed(seconds, [&] {
+    local = scheme(local_);
+    nonlocal = scheme(nonlocal_);
+  });
+  const SweepRange whole{particles_.x.at(0), delta_, particles_.inside(delta_), 0, count};
+  PerThread<std::int64_t> pairs(team, 0);
+  const auto each_range = [&](std::ptrdiff_t grain, auto run) {
+    team.each(count, grain, [&](const Piece& piece) {
+      Laps laps(piece);
+      run(piece);
+      laps.end_of(seconds);
+      and_then(piece);
+    });
+  };
+  const auto range_of = [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+    SweepRange range = whole;
+    range.begin = begin;
+    range.end = end;
+    return range;
+  };
+  const auto run = [&](const auto& sweep, auto direct, auto far) {
+    const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
+    if (far::far_pays(sweep, neighbors)) {
+      // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
+      const std::ptrdiff_t size = far::range_size(count, neighbors);
+      each_range(size, [&, size](const Piece& piece) {
+        thread_local far::Memory memory;
+        for (std::ptrdiff_t begin = piece.begin; begin < piece.end; begin += size) {
+          pairs[piece] += far(range_of(begin, std::min(begin + size, piece.end)), sweep, memory);
+        }
+      });
+    } else {
+      each_range(32, [&](const Piece& piece) { pairs[piece] += direct(range_of(piece.begin, piece.end), sweep); });
+    }
+  };
+  if (model_ == 1) {
+    const UpwindSweep sweep{kernel_->sweep,
+                            begin_of(particles_.c_hat),
+                            begin_of(particles_.b_prime),
+                            begin_of(particles_.c),
+                            begin_of(particles_.b),
+                            local,
+                            nonlocal};
+    run(sweep, sweeps().upwind, far::far_sweeps().upwind);
+  } else {
+    const MidpointModes modes = particles_.modes.value_or(MidpointModes{});
+    SymmetricSweep sweep{.kernel = kernel_->sweep,
+                         .mu = mu_,
+                         .x = particles_.x.at(0),
+                         .panels = particles_.panels ? particles_.panels->view() : SweepPanels{},
+                         .half_cosine = {},
+                         .half_sine = {},
+                         .c = modes.c,
+                         .b = modes.b,
+                         .b_prime = begin_of(particles_.b_prime),
+                         .local = local,
+                         .nonlocal = nonlocal};
+    // Modes that there are not have coefficients of zero; what they are read from is of no matter.
+    const int count_of_modes = static_cast<int>(modes.number.size());
+    for (int k = 0; k < most_modes; ++k) {
+      sweep.half_cosine[k] = k < count_of_modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
+      sweep.half_sine[k] = k < count_of_modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
+    }
+    run(sweep, sweeps().symmetric, far::far_sweeps().symmetric);
+  }
+  work_.pairs += pairs.all(std::plus<>());
+  ++work_.weight_builds;
+}
+
+}  // namespace acstudy

@@ -1,0 +1,71 @@
+#pragma once
+
+/// @file
+/// Schemes of one model, kernel and horizon, whose rates come from one sweep over pairs.
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "solver/vector/sweeps.hpp"
+#include "solver/velocity.hpp"
+#include "studies/cases/case.hpp"
+#include "studies/running/ensemble/shared_particles.hpp"
+
+namespace acstudy {
+
+/// The values of one case during its run.
+struct SweptValues {
+  PeriodicArray u;
+  PeriodicArray flux;  ///< c_hat u, of Model I on moving particles
+  ZeroedVector rate;   ///< [N] and the rest of a vector
+};
+
+class SweepGroup {
+ public:
+  /// @param c          one of the group's cases
+  /// @param particles  outlive the group
+  SweepGroup(const Case& c, const SharedParticles& particles);
+  ~SweepGroup();
+  SweepGroup(SweepGroup&&) noexcept;
+
+  /// True if the case can be added: the same model, kernel, horizon and viscosity, and another divergence than those
+  /// already there.
+  bool takes(const Case& c) const;
+  /// Adds a case. `values` stay where they are.
+  void add(const Case& c, SweptValues& values);
+  void remove(const SweptValues& values);
+  bool empty() const { return local_ == nullptr && nonlocal_ == nullptr; }
+
+  /// What rates(), called after it, needs to be known of all particles first: the fluxes of Model I.
+  void prepare(const Piece& piece, Laps& laps);
+
+  /// Called with a piece of particles as soon as their rates are known, while others' are not.
+  /// It may change no u that the group sees.
+  using AndThen = std::function<void(const Piece&)>;
+
+  /// rate = rate(u) of every case. The particles must be where they are meant to be.
+  void rates(Team& team, const AndThen& and_then);
+
+  /// Pair interactions and weight builds of each of the group's cases so far.
+  const WorkCounts& work() const { return work_; }
+
+  double seconds = 0.0;  ///< spent in sweeps, and in fluxes
+
+ private:
+  struct Kernel;
+  void sweep_moving(Team& team, const AndThen& and_then);
+  void sweep_standing(Team& team, const AndThen& and_then);
+
+  const SharedParticles& particles_;
+  std::unique_ptr<Kernel> kernel_;
+  int model_;
+  double delta_, mu_;
+  std::string kernel_label_;
+  SweptValues *local_ = nullptr, *nonlocal_ = nullptr;
+  std::unique_ptr<BandedMatrix> standing_;  ///< where particles stand still
+  std::int64_t standing_pairs_ = 0;
+  WorkCounts work_;
+};
+
+}  // namespace acstudy

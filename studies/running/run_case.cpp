@@ -1,0 +1,101 @@
+#include "studies/running/run_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "studies/models/control_choice.hpp"
+#include "studies/running/advance.hpp"
+#include "studies/running/ensemble/ensemble.hpp"
+
+namespace acstudy {
+
+namespace {
+
+template <class Motion>
+CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
+  const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
+  const auto source =
+      make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule, c.source_refinement);
+  return advance<Motion>(c, *scheme, *source, stop);
+}
+
+/// A case that cannot be run to its end for a numerical reason; whatever else goes wrong is not its fault and goes up.
+CaseResult failed(const std::string& reason) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  CaseResult result;
+  result.completed = true;
+  result.failure = reason;
+  result.error_linf = result.error_l1 = result.error_l2 = none;
+  return result;
+}
+
+}  // namespace
+
+namespace {
+
+CaseResult run_readable(const Case& c, const std::atomic<bool>& stop) {
+  if (c.scene->standing()) return run_once<StandingParticles>(c, stop);
+  if (c.scheme.control == misprinted_trajectories) return run_once<MisprintedParticles>(c, stop);
+  return run_once<MovingParticles>(c, stop);
+}
+
+std::vector<CaseResult> run_together(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop,
+                                     double most_seconds) {
+  std::string failure;
+  try {
+    if (cases.size() > 1 || runs_in_vector_form(*cases.front())) {
+      return run_ensemble(cases, threads, stop, most_seconds);
+    }
+    return {run_readable(*cases.front(), stop)};
+  } catch (const std::domain_error& error) {
+    failure = error.what();
+  } catch (const std::runtime_error& error) {
+    failure = error.what();
+  }
+  if (cases.size() == 1) return {failed(failure)};
+  // One of them failed; it must not take the others along.
+  std::vector<CaseResult> results;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    results.push_back(run_together(cases.subspan(i, 1), threads, stop, most_seconds).front());
+  }
+  return results;
+}
+
+}  // namespace
+
+std::vector<CaseResult> run_cases(std::span<const Case* const> cases, const std::atomic<bool>& stop,
+                                  std::size_t repeats, int threads, double most_seconds) {
+  std::vector<CaseResult> results(cases.size());
+  std::vector<std::vector<double>> seconds(cases.size());
+  std::vector<std::size_t> which(cases.size());
+  std::iota(which.begin(), which.end(), std::size_t{0});
+  for (std::size_t repeat = 0; repeat < repeats && !which.empty(); ++repeat) {
+    std::vector<const Case*> these;
+    for (const std::size_t i : which) these.push_back(cases[i]);
+    std::vector<CaseResult> once = run_together(these, threads, stop, most_seconds);
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      results[which[k]] = std::move(once[k]);
+      seconds[which[k]].push_back(results[which[k]].seconds);
+    }
+    // A case that is not run to its end lacks a repeat and counts as not run.
+    std::erase_if(which, [&](std::size_t i) { return !results[i].completed; });
+  }
+  for (const std::size_t i : which) {
+    std::sort(seconds[i].begin(), seconds[i].end());
+    results[i].repeats = static_cast<std::int64_t>(repeats);
+    results[i].seconds = 0.5 * (seconds[i][(repeats - 1) / 2] + seconds[i][repeats / 2]);
+    results[i].seconds_low = seconds[i].front();
+    results[i].seconds_high = seconds[i].back();
+  }
+  return results;
+}
+
+CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t repeats, int threads) {
+  const Case* const one = &c;
+  return run_cases({&one, 1}, stop, repeats, threads).front();
+}
+
+}  // namespace acstudy

@@ -1,0 +1,159 @@
+#pragma once
+
+/// @file
+/// The little of HDF5 that the store uses: handles that close themselves, text and columns.
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "studies/storing/store.hpp"
+
+namespace acstudy::h5 {
+
+/// An HDF5 identifier, closed at the end of its life. @throws StoreError from the constructor if HDF5 reported a
+/// failure.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
+    if (id < 0) throw StoreError("HDF5 could not " + what);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+inline void check(herr_t status, const std::string& what) {
+  if (status < 0) throw StoreError("HDF5 could not " + what);
+}
+
+template <class T>
+hid_t native() {
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, std::int64_t>);
+  return H5T_NATIVE_INT64;
+}
+
+/// A file that HDF5 builds in memory, because a disk that is full leaves the library's own file driver in a state in
+/// which it can only crash.
+inline Handle create_file_in_memory(const std::string& name) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file access properties");
+  check(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "choose the memory driver");
+  return {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create a file in memory"};
+}
+
+/// A file in memory as bytes.
+inline std::vector<char> image(hid_t file) {
+  check(H5Fflush(file, H5F_SCOPE_GLOBAL), "flush the file in memory");
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  if (size < 0) throw StoreError("HDF5 could not give the file in memory");
+  std::vector<char> bytes(static_cast<std::size_t>(size));
+  if (H5Fget_file_image(file, bytes.data(), bytes.size()) != size) {
+    throw StoreError("HDF5 could not give the file in memory");
+  }
+  return bytes;
+}
+
+/// The file that such bytes are of.
+inline Handle open_image(std::span<const char> bytes) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make file access properties");
+  check(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "choose the memory driver");
+  // HDF5 makes a copy; that it does not take the bytes as constant is an oversight of its interface.
+  check(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), "take a file in memory");
+  return {H5Fopen("image", H5F_ACC_RDONLY, access), H5Fclose, "open a file in memory"};
+}
+
+inline Handle create_group(hid_t parent, const std::string& name) {
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group " + name};
+}
+inline Handle open_group(hid_t parent, const std::string& name) {
+  return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, "open group " + name};
+}
+
+inline void write_text(hid_t object, const std::string& name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  check(H5Tset_size(type, text.size() + 1), "size a text");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "create attribute " + name);
+  check(H5Awrite(attribute, type, text.c_str()), "write attribute " + name);
+}
+
+inline std::string read_text(hid_t object, const std::string& name) {
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+  const Handle type(H5Aget_type(attribute), H5Tclose, "read the type of " + name);
+  std::string text(H5Tget_size(type), '\0');
+  check(H5Aread(attribute, type, text.data()), "read attribute " + name);
+  text.resize(std::char_traits<char>::length(text.c_str()));
+  return text;
+}
+
+template <class T>
+void write_number(hid_t object, const std::string& name, T value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
+  const Handle attribute(H5Acreate2(object, name.c_str(), native<T>(), space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "create attribute " + name);
+  check(H5Awrite(attribute, native<T>(), &value), "write attribute " + name);
+}
+
+template <class T = double>
+T read_number(hid_t object, const std::string& name) {
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+  T value{};
+  check(H5Aread(attribute, native<T>(), &value), "read attribute " + name);
+  return value;
+}
+
+template <class T>
+void write_column(hid_t group, const std::string& name, std::span<const T> values) {
+  const hsize_t size = values.size();
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "make a column");
+  const Handle data(H5Dcreate2(group, name.c_str(), native<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Dclose, "create column " + name);
+  if (size > 0)
+    check(H5Dwrite(data, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write column " + name);
+}
+
+template <class T>
+std::vector<T> read_column(hid_t group, const std::string& name) {
+  const Handle data(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "open column " + name);
+  const Handle space(H5Dget_space(data), H5Sclose, "read the shape of " + name);
+  const hssize_t size = H5Sget_simple_extent_npoints(space);
+  if (size < 0) throw StoreError("HDF5 could not read the shape of " + name);
+  std::vector<T> values(static_cast<std::size_t>(size));
+  if (size > 0) check(H5Dread(data, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read column " + name);
+  return values;
+}
+
+/// Names of the groups directly below `group`.
+inline std::vector<std::string> group_names(hid_t group) {
+  H5G_info_t info;
+  check(H5Gget_info(group, &info), "list a group");
+  std::vector<std::string> names;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    const ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, nullptr, 0, H5P_DEFAULT);
+    if (length < 0) throw StoreError("HDF5 could not list a group");
+    std::string name(static_cast<std::size_t>(length) + 1, '\0');
+    H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
+    name.pop_back();
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace acstudy::h5

@@ -1,0 +1,297 @@
+#include "studies/storing/result_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "studies/reading/input_error.hpp"
+#include "studies/storing/json_form.hpp"
+
+namespace acstudy {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+using json_form::pretty;
+
+json observed_json(const Judgement& judgement) {
+  json out;
+  for (const auto& [name, value] : named_estimates(judgement)) out[name] = value;
+  out["extrapolated"] = judgement.extrapolated;
+  out["pairwise"] = json::array();
+  for (const double order : judgement.pairwise) out["pairwise"].push_back(order);
+  return out;
+}
+
+json case_json(const Case& c, const CaseResult& r) {
+  json one = {{"N", c.N},
+              {"h", c.h},
+              {"delta", c.delta},
+              {"dt", r.dt},
+              {"steps", r.steps},
+              {"error_linf", r.error_linf},
+              {"solution_linf", r.solution_linf},
+              {"error_l1", r.error_l1},
+              {"error_l2", r.error_l2},
+              {"seconds", r.seconds},
+              {"seconds_low", r.seconds_low},
+              {"seconds_high", r.seconds_high},
+              {"repeats", r.repeats},
+              {"positions_seconds", r.positions_seconds},
+              {"weights_seconds", r.weights_seconds},
+              {"pairs_seconds", r.pairs_seconds},
+              {"source_seconds", r.source_seconds},
+              {"work",
+               {{"pairs", r.work.pairs},
+                {"weight_builds", r.work.weight_builds},
+                {"quadrature_points", r.quadrature_points},
+                {"velocity_evaluations", r.work.velocity_evaluations},
+                {"flow_evaluations", r.flow_evaluations}}}};
+  if (r.dt_smallest != r.dt) one["dt_smallest"] = r.dt_smallest;
+  if (const StepsAgainstBound& bound = r.against_bound; bound.largest > 0.0) {
+    one["bound"] = {{"largest", bound.largest}};
+    if (bound.first_step > 0) {
+      one["bound"]["first_step"] = bound.first_step;
+      one["bound"]["first_time"] = bound.first_time;
+      one["bound"]["first_place"] = bound.first_place;
+    }
+  }
+  if (!r.blow_up.empty() || !r.failure.empty()) {
+    one["last"] = {{"step", r.last.step},
+                   {"time", r.last.time},
+                   {"particle", r.last.particle},
+                   {"place", r.last.place},
+                   {"error_linf", r.last.error_linf},
+                   {"error_l1", r.last.error_l1},
+                   {"error_l2", r.last.error_l2}};
+  }
+  if (!r.blow_up.empty()) one["blow_up"] = r.blow_up;
+  if (!r.failure.empty()) one["failure"] = r.failure;
+  return one;
+}
+
+json series_json(const SeriesResult& result) {
+  const Series& series = *result.series;
+  const Judgement& judgement = result.judgement;
+  json out;
+  out["model"] = series.scheme.model;
+  out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
+  out["kernel"] = series.scheme.kernel.name;
+  if (series.scheme.kernel.name == "power") out["alpha"] = series.scheme.kernel.alpha;
+  if (series.scheme.model == 2) out["mu"] = series.cases.front().mu;
+  out["path"] = series.path;
+  out["delta"] = series.delta_text;
+  out["source"] = series.nonlocal_source ? "nonlocal" : "local";
+  out["integrator"] = series.cases.front().integrator->name;
+  out["step"] = series.cases.front().step.label();
+  out["start"] = series.cases.front().start.label();
+  if (!series.stepping.empty()) out["stepping"] = series.stepping;
+  out["motion"] = series.cases.front().scene->standing() ? "standing" : "moving";
+  out["theory"] = {
+      {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
+  out["observed"] = observed_json(judgement);
+  out["verdict"] = name_of(judgement.verdict);
+  out["expected"] = name_of(series.expected);
+  out["as_expected"] = result.as_expected();
+  out["reason"] = judgement.reason;
+  out["cases_planned"] = series.cases.size();
+  out["cases"] = json::array();
+  for (const std::size_t i : result.completed_levels()) {
+    out["cases"].push_back(case_json(series.cases[i], result.results[i]));
+  }
+  if (const CaseResult* const reference = result.reference()) {
+    out["reference"] = case_json(series.cases.back(), *reference);
+    for (const char* const error : {"error_linf", "error_l1", "error_l2"}) out["reference"].erase(error);
+  }
+  return out;
+}
+
+json two_powers_json(const TwoPowers& fit) {
+  const auto order = [](const FittedOrder& o) { return json{{"value", o.value}, {"low", o.low}, {"high", o.high}}; };
+  return {{"A", fit.A}, {"B", fit.B}, {"p", order(fit.p)}, {"q", order(fit.q)}, {"rms", fit.rms}, {"bic", fit.bic}};
+}
+
+json surface_json(const SurfaceFit& fit) {
+  json out = two_powers_json(fit);
+  if (fit.sum) out["sum"] = two_powers_json(*fit.sum);
+  out["h_correction"] = fit.h_correction;
+  out["delta_correction"] = fit.delta_correction;
+  out["sharpness"] = fit.sharpness;
+  out["bic_h"] = fit.bic_h;
+  out["bic_delta"] = fit.bic_delta;
+  return out;
+}
+
+json finding_json(const Finding& finding) {
+  const Judgement& judgement = finding.judgement;
+  json out = {{"statement", finding.statement}, {"claim", finding.claim},       {"subject", finding.subject},
+              {"check", finding.check},         {"quantity", finding.quantity}, {"test", name_of(finding.test)}};
+  if (!finding.remark.empty()) out["remark"] = finding.remark;
+  if (!finding.failure.empty()) out["failure"] = finding.failure;
+  out["variable"] = finding.variable;
+  if (finding.test != Test::bounds) {
+    out["theory_order"] = finding.theory_order;
+    if (finding.known.scale) out["scale"] = *finding.known.scale;
+    if (finding.known.floor) out["floor"] = *finding.known.floor;
+    out["observed"] = observed_json(judgement);
+  }
+  if (finding.surface) out["surface"] = surface_json(*finding.surface);
+  out["verdict"] = name_of(judgement.verdict);
+  out["promised"] = name_of(finding.promised);
+  out["expected"] = name_of(finding.expected);
+  for (const Verdict verdict : finding.also_expected) out["also_expected"].push_back(name_of(verdict));
+  out["as_expected"] = finding.as_expected();
+  out["alarm"] = finding.alarm();
+  out["reason"] = judgement.reason;
+  out["points"] = json::array();
+  for (const Point& point : finding.points) {
+    json one = {
+        {"N", point.N}, {"h", point.h}, {"delta", point.delta}, {"variable", point.variable}, {"value", point.value}};
+    if (!point.label.empty()) one["label"] = point.label;
+    if (finding.test == Test::bounds) {
+      one["lower"] = point.lower;
+      one["upper"] = point.upper;
+    }
+    out["points"].push_back(one);
+  }
+  return out;
+}
+
+double real(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+Verdict verdict(const json& value) {
+  const auto found = verdict_from(value.get<std::string>());
+  if (!found) throw std::invalid_argument("unknown verdict " + value.dump());
+  return *found;
+}
+
+FindingRecord read_finding(const std::string& study, const json& one) {
+  FindingRecord record{study, {}, one.at("verdict").get<std::string>()};
+  Finding& finding = record.finding;
+  finding.statement = one.at("statement").get<std::string>();
+  finding.subject = one.at("subject").get<std::string>();
+  finding.failure = one.value("failure", "");
+  finding.check = one.at("check").get<std::string>();
+  const auto test = test_from(one.at("test").get<std::string>());
+  if (!test) throw std::invalid_argument("unknown test " + one.at("test").dump());
+  finding.test = *test;
+  finding.theory_order = finding.test == Test::bounds ? 0.0 : real(one.at("theory_order"));
+  const auto known = [&](const char* name) {
+    return one.contains(name) ? std::optional(real(one.at(name))) : std::nullopt;
+  };
+  finding.known = {.scale = known("scale"), .floor = known("floor")};
+  finding.promised = verdict(one.at("promised"));
+  finding.expected = verdict(one.at("expected"));
+  for (const json& also : one.value("also_expected", json::array())) finding.also_expected.push_back(verdict(also));
+  for (const json& point : one.at("points")) {
+    Point& p = finding.points.emplace_back();
+    p.N = point.at("N").get<std::int64_t>();
+    p.h = real(point.at("h"));
+    p.delta = real(point.at("delta"));
+    p.variable = real(point.at("variable"));
+    p.value = real(point.at("value"));
+    p.label = point.value("label", "");
+    if (finding.test == Test::bounds) {
+      // A bound that is not there is no number in the file.
+      if (!point.at("lower").is_null()) p.lower = real(point.at("lower"));
+      if (!point.at("upper").is_null()) p.upper = real(point.at("upper"));
+    }
+  }
+  judge(finding);
+  return record;
+}
+
+SeriesRecord read_series(const std::string& study, const json& series) {
+  SeriesRecord record;
+  record.study = study;
+  const bool standing = series.value("motion", std::string("moving")) == "standing";
+  const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
+  const SchemeChoice scheme{.model = series.at("model").get<int>(),
+                            .nonlocal_divergence = series.at("divergence").get<std::string>() == "nonlocal",
+                            .kernel = kernel};
+  record.label = scheme_label(scheme, standing) + ", " + series.at("path").get<std::string>();
+  if (series.contains("stepping")) record.label += ", " + series.at("stepping").get<std::string>();
+  const json& theory = series.at("theory");
+  const bool by_h = theory.at("variable").get<std::string>() == "h";
+  const auto variable = [by_h](const json& one) {
+    const double h = real(one.at("h"));
+    return by_h ? h : std::max(h, real(one.at("delta")));
+  };
+  for (const json& one : series.at("cases")) {
+    record.levels.push_back({variable(one), real(one.at("error_linf"))});
+    record.solutions.push_back(real(one.value("solution_linf", json(nullptr))));
+    if (record.failure.empty()) record.failure = one.value("failure", "");
+  }
+  if (const auto reference = series.find("reference"); reference != series.end()) {
+    record.reference = {reference->at("N").get<std::int64_t>(), variable(*reference)};
+    if (record.failure.empty()) record.failure = reference->value("failure", "");
+  }
+  record.theory_order = real(theory.at("order"));
+  record.expected = verdict(series.at("expected"));
+  record.verdict = series.at("verdict").get<std::string>();
+  record.cases_planned = series.value("cases_planned", record.levels.size());
+  return record;
+}
+
+}  // namespace
+
+std::string json_text(const StudyResult& result, const Provenance& provenance) {
+  const Study& study = *result.study;
+  json root = {{"study", study.name}, {"title", study.title}, {"kind", study.kind}};
+  root["provenance"] = json::object();
+  for (const auto& [name, value] : provenance) root["provenance"][name] = value;
+  // The series of other kinds are runs that their findings rest on; they have no verdict of their own.
+  if (study.judged_by_series()) {
+    root["series"] = json::array();
+    for (const SeriesResult& series : result.series) root["series"].push_back(series_json(series));
+  } else {
+    root["findings_planned"] = study.measurements.size();
+    root["findings"] = json::array();
+    for (const auto& finding : result.findings) {
+      if (finding) root["findings"].push_back(finding_json(*finding));
+    }
+  }
+  return pretty(root) + "\n";
+}
+
+ResultRecord read_json(const std::string& file) {
+  constexpr const char* remedy = "name a .json file that acstudy run has written";
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) throw InputError(fmt::format("{}: cannot read the result file; {}", file, remedy));
+  ResultRecord all;
+  try {
+    const json root = json::parse(text.str());
+    const std::string& study = all.study = root.at("study").get<std::string>();
+    if (root.contains("findings")) {
+      all.findings_planned = root.at("findings_planned").get<std::size_t>();
+      for (const json& finding : root.at("findings")) all.findings.push_back(read_finding(study, finding));
+    } else {
+      for (const json& series : root.at("series")) all.series.push_back(read_series(study, series));
+    }
+  } catch (const json::parse_error& error) {
+    throw InputError(fmt::format("{}: not JSON, from byte {} on; {}", file, error.byte, remedy));
+  } catch (const json::exception& error) {
+    const std::string what = error.what();
+    throw InputError(
+        fmt::format("{}: not a result file of acstudy: {}; {}", file, what.substr(what.find("] ") + 2), remedy));
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: not a result file of acstudy: {}; {}", file, error.what(), remedy));
+  }
+  if (all.series.empty() && all.findings.empty() && all.findings_planned == 0) {
+    throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));
+  }
+  return all;
+}
+
+}  // namespace acstudy

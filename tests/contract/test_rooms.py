@@ -1,0 +1,41 @@
+"""Includes point one way: a room knows those before it, and none after it."""
+
+import re
+import unittest
+
+from tests.program import ROOT
+
+ROOMS = ["solver", "mms", "reports/judging", "studies/models", "studies/cases", "studies/reading", "studies/storing",
+         "studies/running", "studies/claims", "studies/kinds", "studies/commands"]
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+def room_of(path):
+    return next((room for room in ROOMS if path.startswith(room + "/")), None)
+
+
+def wrong_ways(file, text):
+    """Includes of a source that lead to a later room."""
+    here = ROOMS.index(room_of(file))
+    return [include for include in INCLUDE.findall(text)
+            if (room := room_of(include)) is not None and ROOMS.index(room) > here]
+
+
+class Rooms(unittest.TestCase):
+    def sources(self):
+        return [path.relative_to(ROOT) for top in ("solver", "mms", "reports", "studies")
+                for path in sorted((ROOT / top).rglob("*.?pp"))]
+
+    def test_each_source_stands_in_a_room(self):
+        self.assertGreater(len(self.sources()), 100)
+        self.assertEqual([str(file) for file in self.sources() if room_of(str(file)) is None], [])
+
+    def test_no_include_leads_to_a_later_room(self):
+        found = {str(file): wrong for file in self.sources()
+                 if (wrong := wrong_ways(str(file), (ROOT / file).read_text(encoding="utf-8")))}
+        self.assertEqual(found, {})
+
+    def test_an_include_that_leads_to_a_later_room_is_seen(self):
+        self.assertEqual(wrong_ways("studies/cases/case.hpp", '#include "studies/running/run_case.hpp"\n'),
+                         ["studies/running/run_case.hpp"])
+        self.assertEqual(wrong_ways("studies/running/run_case.hpp", '#include "studies/cases/case.hpp"\n'), [])

@@ -1,0 +1,217 @@
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "solver/time/integrators.hpp"
+#include "tests/catch.hpp"
+
+using namespace acstudy;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr auto to_the_end = [](std::int64_t, TimeStep) { return true; };
+
+/// u' = f(t, u), one unknown.
+template <class Rate>
+struct Scalar {
+  Rate f;
+  void rate(double t, PeriodicArray& u, std::span<double> du) const { du[0] = f(t, u[0]); }
+  /// Newton's method with a difference quotient.
+  void solve(double t, double scale, PeriodicArray& u) const {
+    const double right = u[0];
+    const auto residual = [&](double value) { return value - scale * f(t, value) - right; };
+    double value = right;
+    for (int i = 0; i < 30; ++i) {
+      const double step = 1e-6 * std::max(1.0, std::abs(value));
+      value -= residual(value) / ((residual(value + step) - residual(value - step)) / (2.0 * step));
+    }
+    u[0] = value;
+  }
+};
+
+/// u(T) for u' = rate(t, u), u(0) = 1.
+template <class Rate>
+double solve(const Integrator& integrator, Rate rate, double T, std::int64_t steps) {
+  PeriodicArray u(1);
+  u[0] = 1.0;
+  integrate(integrator, u, EqualSteps(T, steps), Scalar<Rate>{rate}, to_the_end);
+  return u[0];
+}
+
+template <class Rate>
+std::vector<double> observed_orders(const Integrator& integrator, Rate rate, double T, double exact) {
+  std::vector<double> error, order;
+  for (const std::int64_t steps : {20, 40, 80, 160, 320}) {
+    error.push_back(std::abs(solve(integrator, rate, T, steps) - exact));
+    if (error.size() > 1) order.push_back(std::log2(error[error.size() - 2] / error.back()));
+  }
+  return order;
+}
+
+}  // namespace
+
+TEST_CASE("every integrator has its declared order and no more") {
+  for (const Integrator& integrator : integrators) {
+    INFO(integrator.name);
+    const auto check = [&](const std::vector<double>& orders) {
+      CAPTURE(orders);
+      // Within 0.1 for the last two of four: the next term of the error is h times smaller.
+      for (std::size_t i = 2; i < orders.size(); ++i) {
+        CHECK_THAT(orders[i], WithinAbs(integrator.order, 0.1));
+      }
+    };
+    check(observed_orders(
+        integrator, [](double, double u) { return -1.3 * u; }, 1.0, std::exp(-1.3)));
+    // The rate depends on time: a stage at the wrong time loses an order. u = (1 + t) e^(sin t).
+    check(observed_orders(
+        integrator, [](double t, double u) { return u * std::cos(t) + std::exp(std::sin(t)); }, 1.0,
+        2.0 * std::exp(std::sin(1.0))));
+    // Nonlinear, autonomous: u' = u^2, u = 1 / (1 - t).
+    check(observed_orders(
+        integrator, [](double, double u) { return u * u; }, 0.5, 2.0));
+  }
+}
+
+TEST_CASE("one step on u' = lambda u is the Taylor polynomial of e^z to the order of the integrator") {
+  for (const Integrator& integrator : integrators) {
+    if (integrator.implicit()) continue;
+    for (const double z : {-1.7, -0.3, 0.4}) {
+      double polynomial = 1.0, term = 1.0;
+      for (int p = 1; p <= integrator.order; ++p) polynomial += term *= z / p;
+      INFO(integrator.name << ", z = " << z);
+      CHECK_THAT(solve(
+                     integrator, [&](double, double u) { return z * u; }, 1.0, 1),
+                 WithinAbs(polynomial, 1e-15));
+    }
+  }
+}
+
+TEST_CASE("one step on u' = lambda u is the rational function of an L-stable scheme") {
+  const double g = 1.0 - std::sqrt(0.5);
+  for (const double z : {-1e8, -30.0, -1.7, -0.3, 0.4}) {
+    const auto rate = [&](double, double u) { return z * u; };
+    CAPTURE(z);
+    CHECK_THAT(solve(integrators[3], rate, 1.0, 1), WithinAbs(1.0 / (1.0 - z), 1e-13));
+    CHECK_THAT(solve(integrators[4], rate, 1.0, 1),
+               WithinAbs((1.0 + (1.0 - 2.0 * g) * z) / ((1.0 - g * z) * (1.0 - g * z)), 1e-13));
+  }
+}
+
+TEST_CASE("stages are convex and taken at their times") {
+  const std::vector<std::vector<double>> expected = {{0.0}, {0.0, 1.0}, {0.0, 1.0, 0.5}};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    INFO(integrators[i].name);
+    std::vector<double> times;
+    PeriodicArray u(1);
+    integrate(integrators[i], u, EqualSteps(3.0, 2),
+              ExplicitSystem{[&](double t, PeriodicArray&, std::span<double> du) {
+                times.push_back(t);
+                du[0] = 0.0;
+              }},
+              to_the_end);
+    std::vector<double> all;
+    for (const double start : {0.0, 1.5}) {
+      for (const double time : expected[i]) all.push_back(start + 1.5 * time);
+    }
+    CHECK(times == all);
+    for (const Stage& stage : integrators[i].stages) {
+      CHECK(stage.weight > 0.0);
+      CHECK(stage.weight <= 1.0);
+    }
+  }
+}
+
+TEST_CASE("time is n dt, not a sum of steps") {
+  constexpr std::int64_t steps = 1'000'000;
+  double last = 0.0;
+  PeriodicArray u(1);
+  integrate(integrators[0], u, EqualSteps(1.0, steps),
+            ExplicitSystem{[&](double t, PeriodicArray&, std::span<double> du) {
+              last = t;
+              du[0] = 0.0;
+            }},
+            to_the_end);
+  // A running sum would be off by some 1e-11.
+  CHECK_THAT(last, WithinAbs(1.0 - 1e-6, 1e-15));
+}
+
+TEST_CASE("steps_for takes the fewest equal steps within the bound") {
+  for (const std::int64_t n : {1, 2, 3, 10, 49, 1000, 123457}) {
+    for (const double bound : {0.1, 1.0 / 3.0, std::numbers::pi / 640.0, 1e-5}) {
+      CAPTURE(n, bound);
+      CHECK(steps_for(static_cast<double>(n) * bound, bound) == n);
+      CHECK(steps_for((static_cast<double>(n) + 1e-3) * bound, bound) == n + 1);
+      CHECK(steps_for((static_cast<double>(n) - 1e-3) * bound, bound) == n);
+    }
+  }
+  CHECK(steps_for(1.0, 0.1) == 10);  // 1/0.1 > 10 in exact arithmetic of the two doubles
+  CHECK(steps_for(0.3, 0.1) == 3);   // 0.3/0.1 rounds to 2.9999999999999996
+  CHECK(steps_for(1.0, 5.0) == 1);
+  // The paper's steps: T = 1, dt at most h / 4, h = 2 pi / 160; no multiple.
+  CHECK(steps_for(1.0, 2.0 * std::numbers::pi / 640.0) == 102);
+}
+
+TEST_CASE("bounded steps stay within the bound, end at T and are never much smaller") {
+  for (const double T : {1.0, 0.37, 12.5}) {
+    const auto bound = [](double t) { return 0.1 / (1.0 + t * t); };
+    BoundedSteps steps(T, bound);
+    double end = 0.0;
+    std::int64_t count = 0;
+    while (const auto step = steps.next()) {
+      CHECK(step->begin == end);
+      CHECK(step->dt <= bound(step->begin) * (1.0 + 1e-12));
+      CHECK(step->dt >= 0.5 * std::min(bound(step->begin), T));
+      end = step->end;
+      ++count;
+    }
+    CHECK(end == T);
+    CHECK(count >= static_cast<std::int64_t>(10.0 * (T + T * T * T / 3.0)));
+  }
+  // A bound that does not change gives equal steps.
+  BoundedSteps equal(1.0, [](double) { return 0.3; });
+  for (int n = 0; n < 4; ++n) CHECK_THAT(equal.next()->dt, WithinRel(0.25, 1e-14));
+  CHECK(!equal.next());
+  BoundedSteps stuck(1.0, [](double t) { return t == 0.0 ? 0.5 : 1e-300; });
+  CHECK(stuck.next());
+  CHECK_THROWS_AS(stuck.next(), std::domain_error);
+}
+
+TEST_CASE("an explicit system is refused by an implicit integrator") {
+  PeriodicArray u(1);
+  CHECK_THROWS_AS(integrate(integrators[3], u, EqualSteps(1.0, 1),
+                            ExplicitSystem{[](double, PeriodicArray&, std::span<double>) {}}, to_the_end),
+                  std::logic_error);
+}
+
+TEST_CASE("the observer sees every step and can end the run") {
+  for (const Integrator& integrator : integrators) {
+    INFO(integrator.name);
+    PeriodicArray u(1);
+    u[0] = 0.0;
+    std::vector<std::int64_t> seen;
+    const auto one = [](double, double) { return 1.0; };
+    const Scalar<decltype(one)> system{one};
+    const std::int64_t done = integrate(integrator, u, EqualSteps(1.0, 10), system, [&](std::int64_t n, TimeStep) {
+      seen.push_back(n);
+      return n < 4;
+    });
+    CHECK(done == 4);
+    CHECK(seen == std::vector<std::int64_t>{1, 2, 3, 4});
+    CHECK_THAT(u[0], WithinRel(0.4, 1e-14));
+    CHECK(integrate(integrator, u, EqualSteps(1.0, 10), system, to_the_end) == 10);
+    CHECK_THAT(u[0], WithinRel(1.4, 1e-14));
+  }
+}
+
+TEST_CASE("no integrator hides a value that is not finite") {
+  for (const Integrator& integrator : integrators) {
+    INFO(integrator.name);
+    CHECK(std::isnan(solve(
+        integrator, [](double t, double u) { return t > 0.3 ? std::numeric_limits<double>::quiet_NaN() : u; }, 1.0,
+        10)));
+  }
+}

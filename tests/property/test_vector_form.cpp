@@ -1,0 +1,475 @@
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "solver/far/far_sweeps.hpp"
+#include "studies/models/scheme.hpp"
+#include "studies/running/ensemble/ensemble.hpp"
+#include "studies/running/ensemble/sweep_group.hpp"
+#include "studies/running/stopwatch.hpp"
+#include "tests/catch.hpp"
+#include "tests/irregular_particles.hpp"
+#include "tests/named_scene.hpp"
+
+using namespace acstudy;
+using namespace acstudy::test;
+
+namespace {
+
+/// sum of a few modes with random coefficients
+std::string random_field(std::mt19937& generator, std::initializer_list<int> modes) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::string text = std::to_string(uniform(generator));
+  for (const int n : modes) {
+    text += " + " + std::to_string(uniform(generator)) + "*sin(" + std::to_string(n) + "*x)";
+    text += " + " + std::to_string(uniform(generator)) + "*cos(" + std::to_string(n) + "*x)";
+  }
+  return text;
+}
+
+std::shared_ptr<const Scene> random_scene(unsigned seed) {
+  std::mt19937 generator(seed);
+  const std::string c = random_field(generator, {1, 3}), b = random_field(generator, {1, 2});
+  return std::make_shared<const Scene>(
+      SceneText{.name = {}, .period = "2*pi", .T = "1", .c = c, .b = b, .u = "cos(x - t)", .flow = {}});
+}
+
+/// A case of the local source, ten steps long.
+Case case_on(const std::shared_ptr<const Scene>& scene, int model, bool nonlocal, const KernelChoice& kernel,
+             std::size_t N, double delta) {
+  return {.scene = scene,
+          .scheme = {model, nonlocal, kernel, {}, {}},
+          .mu = model == 2 ? 2.5 : 0.0,
+          .nonlocal_source = false,
+          .source_rule = SourceRule::gauss,
+          .integrator = &forward_euler,
+          .N = static_cast<std::int64_t>(N),
+          .h = scene->period() / static_cast<double>(N),
+          .delta = delta,
+          .dt = 1e-3,
+          .steps = 10};
+}
+
+struct Swept {
+  std::vector<double> rate;
+  std::int64_t pairs;
+};
+
+Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector<double>& u, bool with_twin,
+                  int threads = 1) {
+  Team team(threads);
+  SharedParticles particles(*c.scene, x,
+                            {.c_hat = true,
+                             .c_and_b = true,
+                             .b_prime = true,
+                             .midpoints = c.scheme.model == 2,
+                             .phases = true,
+                             .delta = c.delta},
+                            team);
+  particles.move(0.0);
+  SweepGroup group(c, particles);
+  const auto values = [&] {
+    SweptValues v{PeriodicArray(x.size()), PeriodicArray(x.size()), ZeroedVector(x.size() + 16)};
+    std::copy(u.begin(), u.end(), v.u.values().begin());
+    return v;
+  };
+  SweptValues its_values = values(), of_twin = values();
+  group.add(c, its_values);
+  Case twin = c;
+  twin.scheme.nonlocal_divergence = !twin.scheme.nonlocal_divergence;
+  if (with_twin) group.add(twin, of_twin);
+  particles.move(0.0, [&](const Piece& piece, Laps& laps) { group.prepare(piece, laps); });
+  group.rates(team, [](const Piece&) {});
+  return {{its_values.rate.begin(), its_values.rate.begin() + std::ssize(x)}, group.work().pairs};
+}
+
+Swept readable_rates(const Case& c, const std::vector<double>& x, const std::vector<double>& u) {
+  const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
+  const Particles particles = placed(x, c.scene->period(), c.delta);
+  scheme->place(particles);
+  Swept swept{rates(*scheme, u), 0};
+  swept.pairs = scheme->work().pairs;
+  return swept;
+}
+
+constexpr const char* all_kernels[] = {"inverse", "cubic-spline", "power"};
+
+template <class Check>
+void for_each_case(Check check) {
+  unsigned seed = 0;
+  for (const std::size_t N : {3, 7, 40, 165}) {
+    const auto scene = random_scene(++seed);
+    const double period = scene->period(), h = period / static_cast<double>(N);
+    for (const int model : {1, 2}) {
+      for (const bool nonlocal : {false, true}) {
+        for (const char* const kernel : all_kernels) {
+          for (const double alpha : {0.5, -1.0, 1.5}) {
+            if (std::string(kernel) != "power" && alpha != 0.5) continue;
+            const KernelChoice choice{kernel, std::string(kernel) == "power" ? alpha : 0.0};
+            if (model == 2 && !integrable(choice)) continue;
+            for (const double delta : {1e-3 * h, 1.3 * h, 4.7 * h, 0.31 * period, 0.49 * period}) {
+              if (delta >= 0.5 * period) continue;
+              const Case c = case_on(scene, model, nonlocal, choice, N, delta);
+              seed += 2;
+              check(c, irregular_positions(N, period, seed), irregular_values(N, seed + 1));
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("The vector form has the readable form's rates and pairs, for random scenes, particles and kernels",
+          "[vector]") {
+  for_each_case([](const Case& c, const std::vector<double>& x, const std::vector<double>& u) {
+    CAPTURE(c.key());
+    const Swept expected = readable_rates(c, x, u);
+    for (const bool with_twin : {false, true}) {
+      const Swept swept = swept_rates(c, x, u, with_twin);
+      CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+      CHECK(swept.pairs == expected.pairs);
+    }
+  });
+}
+
+TEST_CASE("A neighbor at the horizon counts in the vector form as it does in the readable one", "[vector]") {
+  // On the uniform start with delta = 4h every particle ties.
+  const auto scene = random_scene(77);
+  constexpr std::size_t N = 64;
+  const double h = scene->period() / N;
+  for (const int model : {1, 2}) {
+    Case c = case_on(scene, model, true, {"cubic-spline"}, N, 4.0 * h);
+    const auto x = uniform_positions(N, scene->period());
+    const auto u = irregular_values(N, 5);
+    const Swept expected = readable_rates(c, x, u), swept = swept_rates(c, x, u, false);
+    CHECK(swept.pairs == expected.pairs);
+    CHECK(expected.pairs == static_cast<std::int64_t>(4 * N * (model == 1 ? 1 : 2)));
+    CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+    // the comparison sees a horizon that is short of the tie
+    c.delta *= 1.0 - 1e-9;
+    CHECK(relative_gap(swept_rates(c, x, u, false).rate, expected.rate) > 1e-3);
+  }
+}
+
+namespace {
+
+/// Rates and pairs of both forms for a horizon, Model I and II, each divergence alone and both together.
+void check_forms_agree(const std::shared_ptr<const Scene>& scene, const std::vector<double>& x, double delta) {
+  const auto u = irregular_values(x.size(), 8);
+  for (const int model : {1, 2}) {
+    for (const char* const kernel : {"inverse", "cubic-spline"}) {
+      if (model == 2 && !integrable({kernel})) continue;
+      for (const bool nonlocal : {false, true}) {
+        const Case c = case_on(scene, model, nonlocal, {kernel}, x.size(), delta);
+        CAPTURE(c.key());
+        const Swept expected = readable_rates(c, x, u);
+        for (const bool with_twin : {false, true}) {
+          const Swept swept = swept_rates(c, x, u, with_twin);
+          CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+          CHECK(swept.pairs == expected.pairs);
+        }
+      }
+    }
+  }
+}
+
+/// Positions within one period whose gaps are in proportion to what is given.
+std::vector<double> with_gaps(std::vector<double> gap, double period) {
+  double sum = 0.0;
+  for (const double each : gap) sum += each;
+  double position = 0.1;
+  for (double& each : gap) position += std::exchange(each, position) * period / sum;
+  return gap;
+}
+
+}  // namespace
+
+TEST_CASE("A horizon about the smallest gap gives each particle its nearest neighbor and hardly another", "[vector]") {
+  const auto scene = random_scene(78);
+  const auto x = irregular_positions(61, scene->period(), 9);
+  const auto [smallest, largest] = test::gaps(x, scene->period());
+  for (const double delta : {1e-200, 0.5 * smallest, smallest, 1.01 * smallest, largest, 1.01 * largest}) {
+    check_forms_agree(scene, x, delta);
+  }
+  const Case c = case_on(scene, 2, true, {"cubic-spline"}, x.size(), 0.99 * smallest);
+  CHECK(swept_rates(c, x, irregular_values(x.size(), 8), true).pairs == static_cast<std::int64_t>(2 * x.size()));
+}
+
+TEST_CASE("Windows may hold many neighbors on one side and few on the other", "[vector]") {
+  const auto scene = random_scene(79);
+  std::vector<double> gap;
+  for (int i = 0; i < 90; ++i) gap.push_back(1.0);
+  for (int i = 0; i < 13; ++i) gap.push_back(25.0);
+  for (int i = 0; i < 30; ++i) gap.push_back(3.0);
+  const auto x = with_gaps(gap, scene->period());
+  const double dense = test::gaps(x, scene->period()).smallest;
+  for (const double neighbors : {3.5, 9.5, 24.5, 60.5, 120.5}) check_forms_agree(scene, x, neighbors * dense);
+}
+
+TEST_CASE("Several neighbors may tie with the horizon", "[vector]") {
+  const auto scene = random_scene(80);
+  // Pairs of particles that all but coincide: the second of a pair is a little beyond the horizon of some.
+  std::vector<double> gap;
+  for (int i = 0; i < 40; ++i) {
+    gap.push_back(1.0);
+    gap.push_back(1e-13);
+  }
+  const auto x = with_gaps(gap, scene->period());
+  for (const int steps : {1, 2, 3, 11}) check_forms_agree(scene, x, x[2 * steps] - x[0]);
+}
+
+TEST_CASE("Velocities at midpoints may have any few modes, in common or not", "[vector]") {
+  const auto x = irregular_positions(43, 2.0 * std::numbers::pi, 10);
+  for (const auto& [c, b] : {std::pair("0.7", "0.3"), std::pair("0.7", "sin(x)"), std::pair("cos(x)", "sin(x) - 2"),
+                             std::pair("sin(x) + cos(3*x)", "0.1"), std::pair("cos(2*x)", "sin(x) + cos(2*x)"),
+                             std::pair("sin(x) + cos(2*x) + sin(4*x)", "cos(5*x) - cos(x)")}) {
+    CAPTURE(c, b);
+    const auto scene = std::make_shared<const Scene>(
+        SceneText{.name = {}, .period = "2*pi", .T = "1", .c = c, .b = b, .u = "cos(x - t)", .flow = {}});
+    REQUIRE(midpoint_modes(VelocitySeries(*scene)));
+    check_forms_agree(scene, x, 0.7);
+  }
+}
+
+TEST_CASE("With hundreds of neighbors the moments of cells keep their digits", "[vector]") {
+  const auto scene = random_scene(81);
+  check_forms_agree(scene, irregular_positions(2500, scene->period(), 11), 0.06 * scene->period());
+}
+
+namespace {
+
+/// A case with so many neighbors that it is swept in its far form.
+Case far_case(const std::shared_ptr<const Scene>& scene, int model, const char* kernel) {
+  constexpr std::size_t N = 4000;
+  const Case c = case_on(scene, model, true, {kernel}, N, 0.1 * scene->period());
+  const SweepKernel::Form form =
+      kernel == std::string("inverse") ? SweepKernel::Form::inverse : SweepKernel::Form::cubic_spline;
+  const double neighbors = c.delta / c.h;
+  if (model == 1) {
+    UpwindSweep sweep{};
+    sweep.kernel.form = form;
+    REQUIRE(far::far_pays(sweep, neighbors));
+  } else {
+    SymmetricSweep sweep{};
+    sweep.kernel.form = form;
+    REQUIRE(far::far_pays(sweep, neighbors));
+  }
+  REQUIRE(far::range_size(c.N, neighbors) < c.N / 2);
+  return c;
+}
+std::vector<Case> far_cases(const std::shared_ptr<const Scene>& scene) {
+  return {far_case(scene, 1, "inverse"), far_case(scene, 1, "cubic-spline"), far_case(scene, 2, "cubic-spline")};
+}
+
+}  // namespace
+
+TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
+  const auto scene = random_scene(5);
+  std::vector<Case> cases = far_cases(scene);
+  for (const int model : {1, 2}) cases.push_back(case_on(scene, model, false, {"cubic-spline"}, 1000, 0.1));
+  for (const Case& c : cases) {
+    const auto N = static_cast<std::size_t>(c.N);
+    const auto x = irregular_positions(N, scene->period(), 3);
+    const auto u = irregular_values(N, 4);
+    const Swept one = swept_rates(c, x, u, true, 1);
+    for (const int threads : {2, 3, 5}) {
+      const Swept several = swept_rates(c, x, u, true, threads);
+      CHECK(several.rate == one.rate);
+      CHECK(several.pairs == one.pairs);
+    }
+  }
+}
+
+TEST_CASE("With many neighbors, too, swept rates and pairs are those of the readable form", "[vector]") {
+  const auto scene = random_scene(6);
+  for (const Case& c : far_cases(scene)) {
+    CAPTURE(c.key());
+    const auto N = static_cast<std::size_t>(c.N);
+    const auto x = irregular_positions(N, scene->period(), 3);
+    const auto u = irregular_values(N, 4);
+    for (const bool nonlocal : {false, true}) {
+      Case form = c;
+      form.scheme.nonlocal_divergence = nonlocal;
+      const Swept expected = readable_rates(form, x, u);
+      for (const bool with_twin : {false, true}) {
+        const Swept swept = swept_rates(form, x, u, with_twin);
+        CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
+        CHECK(swept.pairs == expected.pairs);
+      }
+    }
+  }
+}
+
+namespace {
+
+CaseResult result_of(Case c, bool readable, int threads = 1) {
+  const std::atomic<bool> stop{false};
+  c.readable = readable;
+  return run_case(c, stop, 1, threads);
+}
+
+}  // namespace
+
+TEST_CASE("A run in the vector form ends where the readable one does, whatever the integrator, scene, source and start",
+          "[vector]") {
+  for (const char* const name : {"lee-du-2019", "standing-variable-velocity", "lagrangian"}) {
+    const auto scene = named_scene(name);
+    for (const Integrator& integrator : integrators) {
+      if (integrator.implicit()) continue;
+      for (const int model : {1, 2}) {
+        for (const bool nonlocal : {false, true}) {
+          for (const bool by_lemma : {false, true}) {
+            constexpr std::int64_t N = 50;
+            const double h = scene->period() / N;
+            Case c{.scene = scene,
+                   .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                   .mu = model == 2 ? 1.6 : 0.0,
+                   .nonlocal_source = nonlocal,
+                   .source_rule = SourceRule::gauss,
+                   .integrator = &integrator,
+                   .N = N,
+                   .h = h,
+                   .delta = 3.3 * h,
+                   .dt = scene->T() / 100,
+                   .steps = 100};
+            c.start = {.kind = Start::Kind::jittered, .smallest_gap = 0.3, .seed = 2};
+            if (by_lemma && scene->max_relative_velocity() > 0.0) {
+              c.step = {.bound = StepRule::Bound::lemma, .safety = 0.5, .text = "cfl"};
+            }
+            CAPTURE(c.key());
+            REQUIRE(runs_in_vector_form(c));
+            const CaseResult vector = result_of(c, false), readable = result_of(c, true);
+            CHECK(relative_gap(vector.u, readable.u) <= 1e-12);
+            CHECK(relative_gap(vector.x, readable.x) <= 1e-14);
+            CHECK(vector.steps == readable.steps);
+            CHECK(vector.work.pairs == readable.work.pairs);
+            CHECK(vector.against_bound.first_step == readable.against_bound.first_step);
+            CHECK(result_of(c, false, 3).u == vector.u);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("Cases that share their particles end as each would alone", "[vector]") {
+  const auto scene = named_scene("lee-du-2019");
+  std::vector<Case> cases;
+  for (const double delta : {0.02, 0.2}) {
+    for (const int model : {1, 2}) {
+      for (const bool nonlocal : {false, true}) {
+        for (const bool source : {false, true}) {
+          constexpr std::int64_t N = 120;
+          cases.push_back({.scene = scene,
+                           .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                           .mu = model == 2 ? 4.0 / 3.0 : 0.0,
+                           .nonlocal_source = source,
+                           .source_rule = SourceRule::gauss,
+                           .integrator = &forward_euler,
+                           .N = N,
+                           .h = scene->period() / N,
+                           .delta = delta,
+                           .dt = 1.0 / 160.0,
+                           .steps = 160});
+        }
+      }
+    }
+  }
+  std::vector<const Case*> together;
+  for (const Case& c : cases) {
+    together.push_back(&c);
+    CHECK(ensemble_key(c) == ensemble_key(cases.front()));
+  }
+  const std::atomic<bool> stop{false};
+  double seconds = 0.0, passed = 0.0;
+  std::vector<CaseResult> results;
+  timed(passed, [&] { results = run_cases(together, stop); });
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    CAPTURE(cases[i].key());
+    CHECK(results[i].u == result_of(cases[i], false).u);
+    seconds += results[i].seconds;
+  }
+  // shares of the time that passed
+  CHECK(seconds <= passed);
+  CHECK(seconds > 0.5 * passed);
+}
+
+TEST_CASE("Cases that would take too long together are put off, and end as each would alone", "[vector]") {
+  const auto scene = named_scene("lee-du-2019");
+  std::vector<Case> cases;
+  for (int i = 0; i < 8; ++i)
+    cases.push_back(case_on(scene, 2, i % 2 == 1, {"cubic-spline"}, 600, 1.0 + 0.1 * (i / 2)));
+  std::vector<const Case*> open;
+  for (const Case& c : cases) open.push_back(&c);
+  const std::atomic<bool> stop{false};
+  std::size_t rounds = 0;
+  for (; !open.empty(); ++rounds) {
+    const std::vector<CaseResult> results = run_cases(open, stop, 2, 1, 1e-9);
+    std::vector<const Case*> put_off;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (results[i].completed) {
+        CHECK(results[i].u == result_of(*open[i], false).u);
+        CHECK(results[i].repeats == 2);
+      } else {
+        put_off.push_back(open[i]);
+      }
+    }
+    REQUIRE(put_off.size() < open.size());
+    open = put_off;
+  }
+  CHECK(rounds > 1);
+}
+
+TEST_CASE("A case that fails takes none of those along that share its particles", "[vector]") {
+  // Within this horizon the solution waves more often than any Gauss rule of the source can follow.
+  const auto scene = std::make_shared<const Scene>(SceneText{
+      .name = {}, .period = "2*pi", .T = "1/100", .c = "cos(2*x)/3", .b = "sin(x)", .u = "cos(60*x - t)", .flow = {}});
+  const Case sound = case_on(scene, 1, true, {"inverse"}, 40, 0.3);
+  Case failing = case_on(scene, 1, true, {"inverse"}, 40, 3.0);
+  failing.nonlocal_source = true;
+  const Case* const together[] = {&failing, &sound};
+  REQUIRE(ensemble_key(failing) == ensemble_key(sound));
+  const std::atomic<bool> stop{false};
+  const std::vector<CaseResult> results = run_cases(together, stop);
+  CHECK(!results[0].failure.empty());
+  CHECK(results[1].failure.empty());
+  CHECK(results[1].u == result_of(sound, false).u);
+}
+
+TEST_CASE("Velocities that are no short trigonometric series run in the vector form as far as they are smooth",
+          "[vector]") {
+  for (const bool smooth : {true, false}) {
+    const auto scene = std::make_shared<const Scene>(SceneText{.name = {},
+                                                               .period = "2*pi",
+                                                               .T = "1/4",
+                                                               .c = smooth ? "exp(sin(x))/3" : "abs(sin(x))/3",
+                                                               .b = "sin(x)/(2 + cos(x))",
+                                                               .u = "cos(x - t)",
+                                                               .flow = {}});
+    for (const int model : {1, 2}) {
+      for (const bool nonlocal : {true, false}) {
+        const Case c{.scene = scene,
+                     .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                     .mu = model == 2 ? 2.0 : 0.0,
+                     .nonlocal_source = smooth,
+                     .source_rule = SourceRule::gauss,
+                     .integrator = &forward_euler,
+                     .N = 160,
+                     .h = scene->period() / 160,
+                     .delta = 0.3,
+                     .dt = 1.0 / 240.0,
+                     .steps = 60};
+        CAPTURE(c.key());
+        CHECK(runs_in_vector_form(c) == (smooth || model == 1));
+        CHECK(relative_gap(result_of(c, false).u, result_of(c, true).u) <= 1e-12);
+        CHECK(result_of(c, false, 2).u == result_of(c, false).u);
+      }
+    }
+  }
+}

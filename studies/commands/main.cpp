@@ -257,7 +257,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> files;
   RunOptions options;
   options.jobs = available_processors();
-  std::string out = options.out.string(), what, form = "vector";
+  std::string out = options.out.string(), what, of_kind, form = "vector";
   std::optional<std::string> junit;
   bool github = false;
 
@@ -378,8 +378,11 @@ int main(int argc, char** argv) {
   explain_command->add_option("STUDY.toml", files, "study files")->required();
 
   CLI::App* const list_command = app.add_subcommand("list", "Print what can be named in a study");
-  list_command->add_option("WHAT", what, "schemes, kernels, integrators or scenes; everything by default")
-      ->check(CLI::IsMember({"schemes", "kernels", "integrators", "scenes"}));
+  list_command
+      ->add_option("WHAT", what,
+                   "schemes, kernels, integrators, scenes or kinds, all of them by default; keys: of a study file")
+      ->check(CLI::IsMember({"schemes", "kernels", "integrators", "scenes", "kinds", "keys"}));
+  list_command->add_option("KIND", of_kind, "with keys: those of studies of this kind");
 
   try {
     app.parse(argc, argv);
@@ -422,7 +425,11 @@ int main(int argc, char** argv) {
         print(fit_values(request));
       }
     } else if (*list_command) {
-      print_list(what);
+      if (what != "keys" && !of_kind.empty()) {
+        throw InputError(fmt::format("list {} {}; only keys are of a kind: write keys {}; see acstudy list --help",
+                                     what, of_kind, of_kind));
+      }
+      what == "keys" ? print_keys(of_kind) : print_list(what);
     } else {
       for (const Study& study : read_studies(files)) fmt::print("{}", explain(study));
     }

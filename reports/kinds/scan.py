@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from coverage_figures import wilson
-from look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from kinds.coverage import wilson
+from drawing.look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
 
 FALSE, DECIDED = "false firm verdicts", "decided verdicts"
 

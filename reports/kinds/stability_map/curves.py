@@ -7,11 +7,11 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 import numpy as np
 
-import axes
-from look import COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
-import names
-from operator_figures import legend_columns, subject_styles
-from stability_map_findings import (CAPPED, NORM, SEARCH_END, integrator_of, lemma, of_kind, ordered, parts, subject_of)
+from drawing import axes
+from drawing.look import COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from reading import names
+from kinds.operators import legend_columns, subject_styles
+from kinds.stability_map.findings import (CAPPED, NORM, SEARCH_END, integrator_of, lemma, of_kind, ordered, parts, subject_of)
 
 COLUMNS = 4             # panels beside one another
 

@@ -6,10 +6,10 @@ import textwrap
 from matplotlib.lines import Line2D
 import numpy as np
 
-import axes
-from look import (COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, slug,
+from drawing import axes
+from drawing.look import (COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, slug,
                   typography)
-import names
+from reading import names
 
 LEFT, RIGHT, GAP = 0.78, 0.1, 0.16     # inches
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from results import ResultError, Scheme
+from reading.results import ResultError, Scheme
 
 FORMAT = "acstudy-bench-1"
 PLACES = "bench*/bench.json"    # in the folder of the results

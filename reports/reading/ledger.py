@@ -9,8 +9,8 @@ import re
 
 import numpy as np
 
-import names
-from results import CONVERGENCE
+from reading import names
+from reading.results import CONVERGENCE
 
 # The statements of the paper in its order.
 PAPER = ("(2.3)", "Remark 2.1", "Remark 2.2", "Lemma 2.3", "Lemma 2.4", "Lemma 2.5", "Theorem 2.6", "Theorem 2.7",

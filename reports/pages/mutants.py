@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from html import escape
 import json
 
-import markup
-from results import ResultError
+from writing import markup
+from reading.results import ResultError
 
 FILE = "mutants/mutants.json"   # in the folder of the results
 COLUMNS = ("mistake", "what it is", "file", "outcome", "caught by", "as expected")

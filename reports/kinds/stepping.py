@@ -6,10 +6,10 @@ import math
 from matplotlib.lines import Line2D
 import numpy as np
 
-import axes
-from look import COLORS, DASHES, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
-import markup
-import names
+from drawing import axes
+from drawing.look import COLORS, DASHES, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from writing import markup
+from reading import names
 
 COLUMNS = ("scheme", "path", "steps", "came to be", "as expected", "<var>N</var>", "max-norm error", "run time (s)",
            "steps taken", "longest / bound", "beyond it from", "given up at")

@@ -2,9 +2,9 @@
 
 from html import escape
 
-import claims
-import findings
-import markup
+from reading import ledger
+from writing import markup
+from writing.tables import entry_table, worst_observed
 
 COLUMNS = ("extreme", "expectation", "worst observed", "verdict", "negative controls", "as expected")
 
@@ -12,7 +12,7 @@ COLUMNS = ("extreme", "expectation", "worst observed", "verdict", "negative cont
 def table(study, entries):
     """A row per expectation, each extreme with a link to its findings.
 
-    `entries`: findings.entries(study), one per finding of the study, in its order.
+    `entries`: ledger.entries(study), one per finding of the study, in its order.
     """
     of = {id(entry): finding for entry, finding in zip(entries, study.findings)}
     rows = "".join(_row(study, extreme, claim, group, of, len(expectations) if i == 0 else 0)
@@ -35,7 +35,7 @@ def _extremes(entries):
 
 
 def _row(study, extreme, claim, group, of, span):
-    expectation = findings.Statement(extreme, tuple(group))
+    expectation = ledger.Statement(extreme, tuple(group))
     caught = sum(entry.as_expected for entry in expectation.controls)
     departing = expectation.departing
     head = (f'<th scope="rowgroup" rowspan="{span}"><a href="#{_anchor(study, extreme)}">{escape(extreme)}</a></th>'
@@ -47,7 +47,7 @@ def _row(study, extreme, claim, group, of, span):
     quantity, finest = of[id(worst)].quantity, _finest(of[id(worst)])
     note = f'<br><span class="note">{escape(finest)}</span>' if finest else ""
     return (f'<tr{markup.departs_if(departing)}>{head}<td class="said">{escape(claim)}<br><span class="note">{escape(quantity)}</span>{tested}</td>'
-            f'<td class="said">{claims.worst_observed(expectation)}{note}</td>'
+            f'<td class="said">{worst_observed(expectation)}{note}</td>'
             f"<td>{markup.badge(worst, worst.control)}</td>"
             f"<td>{caught} of {len(expectation.controls)} fail</td><td>{said}</td></tr>\n")
 
@@ -55,7 +55,7 @@ def _row(study, extreme, claim, group, of, span):
 def _fold(study, extreme, expectations):
     group = [entry for entries in expectations.values() for entry in entries]
     opened = " open" if any(not entry.as_expected for entry in group) else ""
-    tables = "".join(f"<p>{escape(claim)}</p>\n{claims.entry_table(entries, claim)}"
+    tables = "".join(f"<p>{escape(claim)}</p>\n{entry_table(entries, claim)}"
                      for claim, entries in expectations.items())
     return (f'<details id="{_anchor(study, extreme)}"{opened}><summary>{escape(extreme)} '
             f'<span class="note">{len(group)} findings</span></summary>\n{tables}</details>\n')

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from html import escape
 import json
 
-import markup
-from results import ResultError
+from writing import markup
+from reading.results import ResultError
 
 FILE = "compare/compare.json"   # in the folder of the results
 ABSENT = ("<p><code>make compare</code> runs the same cases in NumPy, Octave and PySPH and shows here how their run "

@@ -5,8 +5,8 @@ import textwrap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from look import COLORS, DEPARTING, GRAY, LEGEND, WIDTH, Drawing, add_axes, blank, typography
-import names
+from drawing.look import COLORS, DEPARTING, GRAY, LEGEND, WIDTH, Drawing, add_axes, blank, typography
+from reading import names
 
 QUIET, ALARM = "#EDF0F3", COLORS[0]
 COUNT = "alarms"        # the check that counts a subject's alarms; no column of its own

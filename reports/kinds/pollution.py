@@ -5,8 +5,8 @@ import math
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from look import COLORS, DEPARTING, GRAY, LEGEND, MARKERS, WIDTH, Drawing, add_axes, blank, typography
-import names
+from drawing.look import COLORS, DEPARTING, GRAY, LEGEND, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from reading import names
 
 BARS = {"space": COLORS[0], "time": COLORS[5]}
 SMALLEST = 1e-16

@@ -11,12 +11,12 @@ from matplotlib.patheffects import Normal, Stroke
 import matplotlib
 import numpy as np
 
-import axes
-from look import COLORS, DASHES, DEPARTING, LEGEND, WIDTH, Drawing, add_axes, blank, slug, typography
-import names
-import stability_map_curves
-from stability_map_curves import COLUMNS, wrapped
-from stability_map_findings import (GROWTH, NORM, SEARCH_END, SPECTRAL, WITHIN, allowed_growth, integrator_of, lemma,
+from drawing import axes
+from drawing.look import COLORS, DASHES, DEPARTING, LEGEND, WIDTH, Drawing, add_axes, blank, slug, typography
+from reading import names
+from kinds.stability_map import curves as stability_map_curves
+from kinds.stability_map.curves import COLUMNS, wrapped
+from kinds.stability_map.findings import (GROWTH, NORM, SEARCH_END, SPECTRAL, WITHIN, allowed_growth, integrator_of, lemma,
                                     of_kind, ordered, parts, plane, subject_of)
 
 # Growth relative to what is allowed: the first band is what keeps to it.

@@ -4,8 +4,8 @@ from html import escape
 
 import numpy as np
 
-import markup
-from stability_map_findings import NORM, SEARCH_END, SPECTRAL, lemma, lemma_suffices, of_kind, parts
+from writing import markup
+from kinds.stability_map.findings import NORM, SEARCH_END, SPECTRAL, lemma, lemma_suffices, of_kind, parts
 
 COLUMNS = ("scheme", "particles", "integrator", "printed bound", "rows' bound", "sharp limit, max norm",
            "sharp limit, spectral radius", "verdict", "as expected")

@@ -1,11 +1,9 @@
 """The page of claims: what each statement of the paper says, and what was measured of it."""
 
 from html import escape
-import math
 
-import findings
-import markup
-import names
+from reading import ledger
+from writing import markup, tables
 
 TITLE = "Asymptotic compatibility: claim by claim"
 ABOUT = """Every statement of the theory in the order of the paper, with all that was measured of it and the worst of
@@ -15,14 +13,13 @@ fail, because one of its assumptions does, or in which an error must settle; it 
 failure, and counts as no evidence for the statement."""
 
 COLUMNS = ("statement", "what it says", "measured on", "worst observed", "verdict", "as expected", "figures")
-DETAILS = ("subject", "check", "observed", "verdict", "as expected", "reason")
 
 
 def html(studies, drawings):
     """The page as text. `drawings`: {name of a study: its drawings}."""
-    of_paper, further = findings.ledger(studies)
+    of_paper, further = ledger.ledger(studies)
     every = [entry for statement in (*of_paper, *further) for entry in statement.entries]
-    checked = [study for study in studies if study.kind in findings.OF_MEASUREMENT and study.findings]
+    checked = [study for study in studies if study.kind in ledger.OF_MEASUREMENT and study.findings]
     controls = [finding for study in checked for finding in study.findings]
     body = [markup.outcome({"results": sum(not result.as_expected for result in (*every, *controls))},
                            {"results": len(every) + len(controls)})]
@@ -67,28 +64,8 @@ def _row(statement, drawings):
     claims = "<br>".join(escape(claim) for claim in statement.claims)
     return (f'<tr{markup.departs_if(statement.departing)}>'
             f'<th scope="row"><a href="#{_anchor(statement)}">{escape(statement.name)}</a></th>'
-            f'<td class="said">{claims}</td><td class="said">{measured}</td><td class="said">{worst_observed(statement)}</td>'
+            f'<td class="said">{claims}</td><td class="said">{measured}</td><td class="said">{tables.worst_observed(statement)}</td>'
             f"<td>{verdict}</td><td>{said}</td><td>{_figures(statement, drawings)}</td></tr>\n")
-
-
-def worst_observed(statement):
-    """The extremes of what was observed where the statement has to hold: orders, and the value nearest its bound."""
-    tested = statement.tested or statement.entries
-    orders = sorted((entry for entry in tested if math.isfinite(entry.order)), key=lambda entry: entry.order)
-    bounded = [entry for entry in tested if not math.isnan(entry.margin)]
-    lines = []
-    if orders:
-        lines.append(_observed("lowest " if len(orders) > 1 else "", orders[0]))
-        if len(orders) > 1 and names.order(orders[-1].order) != names.order(orders[0].order):
-            lines.append(_observed("highest ", orders[-1]))
-    if bounded:
-        lines.append(_observed("", min(bounded, key=lambda entry: entry.margin)))
-    return "<br>".join(lines) or "–"
-
-
-def _observed(extreme, entry):
-    return (f"{extreme}{escape(entry.measured)}<br>"
-            f'<span class="note">{escape(entry.subject)}; {escape(entry.check)}</span>')
 
 
 def _figures(statement, drawings):
@@ -109,23 +86,7 @@ def _every(statement):
     opened = " open" if statement.departing else ""
     return (f'<details id="{_anchor(statement)}"{opened}><summary>{escape(statement.name)} '
             f'<span class="note">{_number(len(statement.entries), "finding")}</span></summary>\n'
-            f"{notes}{entry_table(statement.entries, statement.name)}</details>\n")
-
-
-def entry_table(entries, label):
-    """A row per entry of the ledger, all of it."""
-    rows = "".join(
-        f'<tr{markup.departs(entry)}><th scope="row">{escape(entry.subject)}</th><td>{escape(entry.check)}</td>'
-        f"<td>{escape(entry.measured)}</td><td>{markup.badge(entry, entry.control)}</td>"
-        f'<td>{_as_expected(entry)}</td><td class="said">{escape(entry.reason)}</td></tr>\n' for entry in entries)
-    return markup.table(DETAILS, rows, label)
-
-
-def _as_expected(entry):
-    said = markup.expected(entry)
-    role = ("not so as printed" if entry.refuted else "not sharp" if entry.unsharp else
-            "negative control" if entry.control else "")
-    return f'{said} <span class="note">{role}</span>' if role else said
+            f"{notes}{tables.entry_table(statement.entries, statement.name)}</details>\n")
 
 
 def _checked(study):

@@ -10,9 +10,9 @@ from matplotlib.patheffects import Stroke, Normal
 import matplotlib
 import numpy as np
 
-import axes
-from look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
-import names
+from drawing import axes
+from drawing.look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from reading import names
 
 # Refinement paths: name, horizon at spacing h, dashes.
 PATHS = ((r"$\delta=4h$", lambda h: 4 * h, "solid"), (r"$\delta=\sqrt{h}$", np.sqrt, (0, (5, 1.6))),

@@ -1,4 +1,4 @@
-"""Which figures a study gets, a function per kind of study; and their drawing, by several processes."""
+"""The drawing of figures by several processes."""
 
 from contextlib import suppress
 from dataclasses import replace
@@ -8,50 +8,21 @@ from multiprocessing.connection import wait
 import os
 import signal
 
-import bench_figures
-import control_figures
-import coverage_figures
-import digit_figures
-import extremes_figures
-import figures
-import look
-import map_figures
-import operator_figures
-import pollution_figures
-import scan_figures
-import stability_map_figures
-import stepping_figures
-from results import CONVERGENCE
-
-_OF_KIND = {"consistency": operator_figures.consistency_drawings, "identities": operator_figures.identity_drawings,
-            "stability": operator_figures.stability_drawings, "controls": control_figures.drawings,
-            "map": map_figures.drawings, "pollution": pollution_figures.drawings,
-            "coverage": coverage_figures.drawings, "scan": scan_figures.drawings, "digits": digit_figures.drawings,
-            "extremes": extremes_figures.drawings, "stability-map": stability_map_figures.drawings}
+from drawing import look
 
 
 class DrawingKilled(Exception):
     """A drawing process ended before its drawing did; the text is one line."""
 
 
-def of_study(study, styles):
-    """The drawings of a study, in the order of its page. `styles`: of the convergence studies' schemes."""
-    if study.kind in _OF_KIND:
-        return _OF_KIND[study.kind](study)
-    if study.kind != CONVERGENCE:
-        return []
-    return stepping_figures.drawings(study) if study.steps_in_several_ways else figures.drawings(study, styles)
-
-
-def of_all(studies, benches, styles):
-    """The rendered drawings of each study, and at the end those of all together and of the benches: an iterator of lists.
+def in_turn(tasks, at_most):
+    """The rendered drawings of each task (draw, *arguments): an iterator of lists, in the order of the tasks;
+    by `at_most` processes.
 
     DrawingKilled if a process of the drawing was killed. Ended early, it leaves no process.
     """
-    tasks = [*((of_study, study, styles) for study in studies), (_of_cost, studies, styles),
-             (bench_figures.drawings, benches, styles)]
     usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    processes = min(len(studies) + bool(benches), usable)
+    processes = min(at_most, usable)
     if processes < 2:
         yield from map(_rendered, tasks)
         return
@@ -112,10 +83,6 @@ def _in_turn(count, connections):
         raise DrawingKilled("a drawing process was killed; free memory and draw again") from error
 
 
-def _of_cost(studies, styles):
-    return list(filter(None, [figures.cost_drawing(studies, styles)]))
-
-
 def _rendered(task):
-    draw, what, styles = task
-    return [replace(one, files=look.render(one.figure, one.title), figure=None) for one in draw(what, styles)]
+    draw, *arguments = task
+    return [replace(one, files=look.render(one.figure, one.title), figure=None) for one in draw(*arguments)]

@@ -6,13 +6,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 import numpy as np
 
-import axes
-import bench_results
-import bench_tables
-import figures
-from look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, typography
-import names
-import work_precision
+from drawing import axes
+from reading import bench_results, names, work_precision
+from kinds.bench import tables as bench_tables
+from kinds import convergence
+from drawing.look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, typography
 
 EFFICIENT = dict(linestyle="none", marker="o", markersize=13, markeredgewidth=0, color="#D3D3D3", zorder=1)
 # Positions, velocities, pair sums, source, rest: told apart by hatching too.
@@ -21,8 +19,8 @@ SLOPE = dict(color=GRAY, linewidth=0.8, zorder=2)
 
 
 def drawings(benches, styles):
-    """The figures of benches that have something to show. `styles`: {scheme: figures.Style} of the other figures."""
-    styles = figures.styles_of([*styles, *(curve.scheme for bench in benches for curve in bench.curves)])
+    """The figures of benches that have something to show. `styles`: {scheme: convergence.Style} of the other figures."""
+    styles = convergence.styles_of([*styles, *(curve.scheme for bench in benches for curve in bench.curves)])
     compared = [curve for curve in bench_tables.compared(benches) if len(curve)]
     found = []
     if compared:
@@ -64,7 +62,7 @@ def error_figure(curves, styles, cost):
             panels.setdefault(curve.path, []).append(curve)
         columns = 2
         foot = math.ceil((len(legend) + 1) / columns) * LINE * 1.5 + 0.15
-        figure, frames = figures.panel_frames(len(panels), below=0, above=0.4, foot=foot)
+        figure, frames = convergence.panel_frames(len(panels), below=0, above=0.4, foot=foot)
         points = {curve: _points(curve, cost) for curve in curves}
         x, y = (np.concatenate([point[i][np.isfinite(point[i])] for point in points.values()]) for i in (0, 1))
         for frame, (path, group) in zip(frames, panels.items()):

@@ -3,17 +3,12 @@
 from html import escape
 import math
 
-import bench_page
-import claims
-import comparison
-import extremes_table
-import findings
-import markup
-import mutants
-import names
-import stability_map_table
-import stepping_figures
-from results import CONVERGENCE
+from pages import bench as bench_page, claims, comparison, mutants
+from kinds import extremes_table, stepping
+from reading import ledger, names
+from writing import markup, tables
+from kinds.stability_map import table as stability_map_table
+from reading.results import CONVERGENCE
 
 TITLE = "Asymptotic compatibility: convergence studies"
 ABOUT = """A nonlocal discretization has two lengths: the horizon <var>δ</var>, up to which particles interact, and
@@ -129,21 +124,21 @@ def _convergence(study, drawings):
     parts += [markup.figure(drawing) for drawing in drawings]
     every = [_series(series, labels[series.scheme]) for series in study.series]
     if study.steps_in_several_ways:
-        parts.append(stepping_figures.table(study))
+        parts.append(stepping.table(study))
         every = ["<details><summary>Every series</summary>\n", *every, "</details>\n"]
     return "".join((*parts, *every)) + _origin(study)
 
 
 def _findings(study, drawings):
     """A study that is judged by its findings; those that depart are not folded away."""
-    every = findings.entries(study)
+    every = ledger.entries(study)
     departing = [entry for entry in every if not entry.as_expected]
     parts = [_heading(study), markup.outcome({"findings": len(departing)}, {"findings": len(every)})]
     if study.kind == "extremes":
         parts.append(extremes_table.table(study, every))
     parts += [markup.figure(drawing) for drawing in drawings]
     if departing and study.kind != "corpus":
-        parts.append(claims.entry_table(departing, f"{study.title}: not as expected"))
+        parts.append(tables.entry_table(departing, f"{study.title}: not as expected"))
     if study.kind == "stability-map":
         parts.append(stability_map_table.html(study))
     if study.kind == "corpus":
@@ -151,7 +146,7 @@ def _findings(study, drawings):
     elif study.kind == "extremes":
         parts.append(extremes_table.every_finding(study, every))
     elif every:
-        parts.append(f"<details><summary>Every finding</summary>\n{claims.entry_table(every, study.title)}</details>\n")
+        parts.append(f"<details><summary>Every finding</summary>\n{tables.entry_table(every, study.title)}</details>\n")
     return "".join(parts) + _origin(study)
 
 

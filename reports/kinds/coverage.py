@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
-import names
+from drawing.look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from reading import names
 
 
 def drawings(study):

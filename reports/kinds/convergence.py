@@ -11,10 +11,10 @@ import textwrap
 from matplotlib.lines import Line2D
 import numpy as np
 
-import axes
-from look import COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, blank, typography
-import names
-from results import CONVERGENCE
+from drawing import axes
+from drawing.look import COLORS, DASHES, DEPARTING, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, blank, typography
+from reading import names
+from reading.results import CONVERGENCE
 
 
 @dataclass(frozen=True)
@@ -155,15 +155,15 @@ def _legend_text(series, name, room):
 
 # ----------------------------------------------------------------------------------------- error against run time
 
-def cost_drawing(studies, styles):
-    """The cost figure, or None."""
+def cost_drawings(studies, styles):
+    """The cost figure, or nothing."""
     figure = cost_figure(studies, styles)
-    return figure and Drawing(
+    return [] if figure is None else [Drawing(
         "cost", "Error against run time", figure,
         "Log-log plot of the max-norm error against the run time of every scheme, a panel per path. "
         "Values: tables above.",
         "Run time of the whole time loop, or a case's share of it where several advance on the same particles: median of "
-        "the repeats, bars from the fastest to the slowest. Comparable only between runs of one machine. Series run by several studies are drawn once.")
+        "the repeats, bars from the fastest to the slowest. Comparable only between runs of one machine. Series run by several studies are drawn once.")]
 
 
 def cost_curves(studies):

@@ -2,8 +2,8 @@
 
 from html import escape
 
-import bench_tables
-import markup
+from kinds.bench import tables as bench_tables
+from writing import markup
 
 TITLE = "Error against run time"
 FILE = "bench.html"

@@ -8,6 +8,7 @@
 
 #include "studies/models/control_choice.hpp"
 #include "studies/models/theory.hpp"
+#include "studies/reading/shared_tables.hpp"
 
 namespace acstudy {
 
@@ -56,8 +57,6 @@ std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution) {
           fmt::format("unknown scene {}; known scenes: {}", in_quotes(name), fmt::join(known, ", ")));
     }
     text = named_scenes()[found - known.begin()];
-  } else {
-    table.allow({"use", "period", "T", "c", "b", "u", "flow", "reference", "u0", "f"});
   }
   std::size_t offset = 0;
   if (named == nullptr) {
@@ -109,7 +108,7 @@ KernelChoice read_kernel(const Table& scheme, int model) {
   const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
   const toml::node* name_node = &node;
   if (table != nullptr) {
-    inner.allow({"name", "alpha"});
+    inner.allow(scheme_keys, "kernel");
     name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
   }
   KernelChoice kernel{scheme.text("kernel", *name_node, "kernel = \"inverse\"")};
@@ -148,7 +147,6 @@ KernelChoice read_kernel(const Table& scheme, int model) {
 }
 
 SchemeChoice read_scheme(const Table& table, const Scene& scene) {
-  table.allow({"model", "divergence", "kernel", "mu"});
   SchemeChoice scheme{};
   scheme.model = read_model(table);
   const toml::node* const divergence = table.find("divergence");
@@ -218,10 +216,11 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
     table.place(*table.find("name"))
         .fail(fmt::format("name = {}; it must be one of {}", in_quotes(name), fmt::join(known, ", ")));
   }
-  const Table scheme_table = table.sub_table("scheme");
-  SchemeChoice scheme = read_scheme(scheme_table, scene);
+  const Table inner = table.sub_table("scheme");
+  inner.allow(scheme_keys);
+  SchemeChoice scheme = read_scheme(inner, scene);
   if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model)) {
-    scheme_table.place().fail(fmt::format(
+    inner.place().fail(fmt::format(
         "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
         name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
   }
@@ -233,7 +232,6 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
 }
 
 Sweep read_sweep(const Table& table, const Scene& scene) {
-  table.allow({"N", "ratios", "horizons"});
   Sweep sweep{read_levels(table), read_positive(table, "ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
   if (table.find("horizons") != nullptr) {
     sweep.horizons = read_positive(table, "horizons", "horizons = [0.2]");
@@ -247,7 +245,6 @@ Sweep read_sweep(const Table& table, const Scene& scene) {
 namespace {
 
 Stepping read_time(const Table& time) {
-  time.allow({"integrator", "step", "safety", "bound", "expect"});
   std::vector<std::pair<std::string, const Integrator*>> words;
   for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
   Stepping stepping{
@@ -285,7 +282,6 @@ Stepping read_time(const Table& time) {
 SourceRule read_source_rule(const Table& root) {
   if (root.find("source") == nullptr) return SourceRule::gauss;
   const Table source = root.sub_table("source");
-  source.allow({"rule"});
   return source.choice<SourceRule>(
       "rule", source.need("rule", "rule = \"gauss\""),
       {{"gauss", SourceRule::gauss}, {"gsl", SourceRule::gsl}, {"boost", SourceRule::boost}});

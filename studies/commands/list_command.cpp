@@ -18,7 +18,8 @@ struct ListRequest {
 int list(const ListRequest& request) {
   const auto& [what, kind] = request;
   if (what != "keys" && !kind.empty()) {
-    throw InputError(fmt::format("list {} {}; only keys are of a kind: write list keys {}", what, kind, kind));
+    throw InputError(
+        fmt::format("list {} {}; only keys are of a kind: write keys {}; see acstudy list --help", what, kind, kind));
   }
   what == "keys" ? print_keys(kind) : print_list(what);
   return done;

@@ -50,34 +50,28 @@ class Scene:
     f: str = ""
 
 
-@dataclass(frozen=True)
 class Cases:
-    """The cases of a series, coarse to fine: every member is an array [n], but `pairwise`, which is [n - 1]."""
-    N: np.ndarray
-    h: np.ndarray
-    delta: np.ndarray
-    dt: np.ndarray
-    steps: np.ndarray
-    variable: np.ndarray        # value of the theory's variable
-    error_linf: np.ndarray
-    seconds: np.ndarray         # time loop, or the case's share of it; median over repeats
-    seconds_low: np.ndarray
-    seconds_high: np.ndarray
-    repeats: np.ndarray
-    work_pairs: np.ndarray
-    work_weight_builds: np.ndarray
-    work_quadrature_points: np.ndarray
-    bound_largest: np.ndarray       # longest explicit step over the bound of its lemma; 0, NaN: not bounded
-    bound_first_step: np.ndarray    # first step beyond the bound; 0, NaN: none
-    bound_first_time: np.ndarray
-    bound_first_place: np.ndarray   # left end of the smallest gap then
-    last_step: np.ndarray           # of a run that was given up: its last finite state
-    last_time: np.ndarray           # NaN: the run went to its end
-    last_place: np.ndarray          # position of the particle that gave it away
-    pairwise: np.ndarray        # orders between neighboring levels, in the theory's variable
+    """The cases of a series, coarse to fine: an array [n] for each data set of the series, by its stored name.
+
+    What is stored is said once, by the program (studies/cases/case_result.hpp); besides there are `variable`, the value
+    of the theory's variable, and `pairwise` [n - 1], the orders between neighboring levels in it. What a file of an
+    older version lacks is NaN.
+    """
+    _LATER = ("bound_", "last_")
+
+    def __init__(self, place, columns):
+        self._place = place
+        vars(self).update(columns)
 
     def __len__(self):
         return len(self.N)
+
+    def __getattr__(self, name):
+        if name.startswith("_"):    # of Python's own protocols
+            raise AttributeError(name)
+        if name.startswith(self._LATER):
+            return np.full(len(self), math.nan)
+        raise ResultError(f"{self._place}: no dataset {name}; run the study again")
 
 
 @dataclass(frozen=True)
@@ -254,7 +248,7 @@ def _series(group):
 def _finding(group):
     texts = ("statement", "claim", "subject", "check", "quantity", "test", "promised", "expected", "verdict", "reason")
     numbers = ("theory_order", "observed_order", "observed_low", "observed_high", "extrapolated_order")
-    points = _columns(group, Points, {"N"}, without={"label"})
+    points = _columns(group, [name for name in Points.__dataclass_fields__ if name != "label"])
     labels = tuple(_text(group, "labels", "").splitlines())
     if labels and len(labels) != len(points["N"]):
         raise ValueError(f"{group.name}: {len(labels)} labels, but {len(points['N'])} points")
@@ -271,26 +265,17 @@ def _finding(group):
 
 
 def _cases(group):
-    integers = {"N", "steps", "repeats", "work_pairs", "work_weight_builds", "work_quadrature_points"}
-    later = {name for name in Cases.__dataclass_fields__ if name.startswith(("bound_", "last_"))}
-    return Cases(**_columns(group, Cases, integers, between={"pairwise"}, later=later))
+    names = [name for name in group if name not in ("cases", "reference")]
+    return Cases(f"{group.file.filename}: {group.name}", _columns(group, names, between={"pairwise"}))
 
 
-def _columns(group, record, integers, between=frozenset(), without=frozenset(), later=frozenset()):
-    """The data sets named as the fields of `record`, all as long as N; one shorter those `between` two entries.
-
-    Those that came `later` are NaN where a file of an older version lacks them.
-    """
-    arrays = {}
-    for name in (name for name in record.__dataclass_fields__ if name not in without):
-        try:
-            values = _values(group, name)
-        except KeyError:
-            if name not in later:
-                raise KeyError(f"{group.name}: no dataset {name}") from None
-            values = np.full(len(arrays["N"]), math.nan)
-        arrays[name] = values.astype(np.int64 if name in integers else float)
-    n = len(arrays["N"])
+def _columns(group, names, between=frozenset()):
+    """The data sets of these names, all as long as N; one shorter those `between` two entries."""
+    try:
+        arrays = {name: _values(group, name) for name in names}
+        n = len(arrays["N"])
+    except KeyError as error:
+        raise KeyError(f"{group.name}: no dataset {error}") from None
     for name, values in arrays.items():
         expected = max(n - 1, 0) if name in between else n
         if values.shape != (expected,):

@@ -41,17 +41,26 @@ class Reading(ReportTest):
             self.assertEqual(study.scene.flow, "")
             self.assertEqual(list(study.series[0].cases.N), [160, 320, 640, 1280])
 
+    def test_what_is_stored_of_cases_is_read_by_its_name(self):
+        [one] = results.read_study(write(self.folder, "fig1", series(drift=np.arange(4)))).series
+        self.assertEqual(list(one.cases.drift), [0, 1, 2, 3])
+        self.assertTrue(np.isnan(one.cases.last_time).all())
+        with self.assertRaisesRegex(results.ResultError, "no dataset drifts"):
+            one.cases.drifts
+
     def test_a_file_that_is_no_result_stops_with_4_and_one_line(self):
-        incomplete, ragged = series(), series(h=np.ones(3))
-        del incomplete["verdict"]
+        incomplete, lacking, ragged = series(), series(), series(h=np.ones(3))
+        del incomplete["verdict"], lacking["error_linf"]
         (self.folder / "junk.h5").write_text("not HDF5")
         with h5py.File(self.folder / "other.h5", "w") as file:
             file.attrs["format"] = "something else"
         write(self.folder, "incomplete", incomplete)
+        write(self.folder, "lacking", lacking)
         write(self.folder, "ragged", ragged)
         write(self.folder, "outside", series(), study="../../outside")
         for name, said in (("junk", "not a readable HDF5 file"), ("other", 'format = "something else"'),
-                           ("incomplete", "no attribute verdict"), ("ragged", "shape (3,)"),
+                           ("incomplete", "no attribute verdict"), ("lacking", "no dataset error_linf"),
+                           ("ragged", "shape (3,)"),
                            ("outside", 'study = "../../outside"')):
             with self.subTest(name):
                 code, out, err = self.run_report(self.folder, self.folder / f"{name}.h5")

@@ -90,7 +90,7 @@ def error_figure(curves, styles, cost):
 
 def _points(curve, cost):
     """(cost, error) with NaN where a level cannot be drawn on logarithmic axes."""
-    x = curve.seconds.median if cost == "seconds" else curve.work["pairs"]
+    x = curve.seconds.median if cost == "seconds" else curve.pairs
     good = np.isfinite(x) & (x > 0) & np.isfinite(curve.error) & (curve.error > 0)
     return np.where(good, x, np.nan), np.where(good, curve.error, np.nan)
 

@@ -13,7 +13,7 @@ std::string Case::key() const {
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
       "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}",
-      text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""), scheme.model,
+      text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""), scheme.model->number,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",
@@ -28,14 +28,12 @@ std::string Case::key() const {
 }
 
 double Case::estimated_work() const {
-  const double of_pair = scheme.model == 1 ? 1.0 : 4.0, of_particle = 10.0;
+  constexpr double of_particle = 10.0;
   return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stage_count()) *
-         (of_pair * std::max(1.0, delta / h) + of_particle);
+         (scheme.model->pair_cost * std::max(1.0, delta / h) + of_particle);
 }
 
-double Case::lemma_bound(double h_min) const {
-  return lemma_step(scheme, h_min, scheme.model == 1 ? scene->max_relative_velocity() : 0.0, mu);
-}
+double Case::lemma_bound(double h_min) const { return h_min / scheme.model->step_lemma.speed(*scene, mu); }
 
 void Case::halve_steps() {
   steps *= 2;

@@ -60,11 +60,11 @@ std::shared_ptr<const Scene> scene_named(std::string_view name) {
 }
 
 Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene>& scene, Arrangement arrangement) {
-  return {scheme, scheme.model == 2 ? scene->max_relative_velocity() : 0.0, scene, arrangement};
+  return {scheme, scheme.model->viscous ? scene->max_relative_velocity() : 0.0, scene, arrangement};
 }
 
-Subject mistaken(Subject subject, std::string_view model1, std::string_view model2) {
-  subject.scheme.control = subject.scheme.model == 1 ? model1 : model2;
+Subject mistaken(Subject subject, std::string_view control) {
+  subject.scheme.control = control;
   subject.scheme.nonlocal_divergence = false;
   return subject;
 }

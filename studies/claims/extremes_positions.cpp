@@ -107,7 +107,7 @@ void add_nearest(ExtremeRows& rows, const SchemeChoice& scheme) {
     return finding;
   };
   rows.add(moment_of(subject), [=](Finding& row) { at_each(row, subject, first_moment); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
+  const Subject wrong = mistaken(subject, scheme.model->mistakes.inconsistent);
   rows.add_control(moment_of(wrong), "a part of the kernel is missing",
                    [=](Finding& row) { at_each(row, wrong, first_moment); });
 

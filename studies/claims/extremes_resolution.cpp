@@ -5,7 +5,6 @@
 
 #include "studies/claims/extreme_rows.hpp"
 #include "studies/claims/identities.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/claims/stability.hpp"
 
 namespace acstudy {
@@ -90,9 +89,8 @@ void take_ten_steps(Finding& row, const Subject& subject, std::int64_t N) {
   const State end = run_freely(subject, {x, u}, delta, T, steps);
   subject.scene->u(x, T, exact);
   for (std::size_t j = 0; j < x.size(); ++j) exact[j] -= end.u[j];
-  // Lemma 2.5; both parts of Lemma 3.4 with F_zz = c u_xx and mu = c; (u_t + u_x) of forward Euler. A weight errs by an
-  // ulp of a position over a gap.
-  const double space = std::max(h, delta) * (subject.scheme.model == 1 ? 0.5 : 1.0) * fields.u_2;
+  // The lemma against the PDE, and (u_t + u_x) of forward Euler. A weight errs by an ulp of a position over a gap.
+  const double space = std::max(h, delta) * subject.scheme.model->pde_constant * fields.u_2;
   const double round_off = 16.0 * epsilon + 4.0 * dt * fields.u_1 * epsilon / h;
   row.points.push_back({.N = N,
                         .h = h,
@@ -121,7 +119,7 @@ void add_many_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int6
                        "delta = 1.45h, CFL 1/4", "max |u - exact|", Test::bounds);
   };
   rows.add(steps_of(subject), [=](Finding& row) { take_ten_steps(row, subject, most); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
+  const Subject wrong = mistaken(subject, scheme.model->mistakes.inconsistent);
   rows.add_control(steps_of(wrong), "a scheme that is not consistent",
                    [=](Finding& row) { take_ten_steps(row, wrong, fewer); });
 }
@@ -145,11 +143,10 @@ void compare_rates_below(Finding& row, const Subject& subject, const std::vector
       const std::vector<double> rate = placed.rate(u);
       Point point{.N = 48, .h = gap.largest, .delta = ratio * gap.smallest, .variable = ratio, .value = 0.0};
       for (std::size_t j = 0; j < x.size(); ++j) {
-        const double off = std::abs(rate[j] - expected[j]) / printed_rate(subject, x, u, gap.smallest * 0.9, j).size;
+        const double off = std::abs(rate[j] - expected[j]) / subject.printed_rate(x, u, gap.smallest * 0.9, j).size;
         if (worse(off, point.value)) point.value = off;
       }
-      // In Model II delta is in the weights and in N_j, and cancels but for its round-off.
-      point.upper = subject.scheme.model == 1 ? 0.0 : 2.0 * row_round_off(placed.particles());
+      point.upper = subject.scheme.model->nearest.bit_by_bit ? 0.0 : 2.0 * row_round_off(placed.particles());
       row.points.push_back(point);
     }
   }
@@ -160,8 +157,9 @@ void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
   const Subject subject = subject_on(scheme, scene_named("lee-du-2019"), arrangement);
   const auto same = [&](const std::string& check) {
     return subject.finding(horizons,
-                           scheme.model == 1 ? "below every gap the rates are the same, bit by bit, whatever delta"
-                                             : "below every gap the rates are the same to round-off, whatever delta",
+                           scheme.model->nearest.bit_by_bit
+                               ? "below every gap the rates are the same, bit by bit, whatever delta"
+                               : "below every gap the rates are the same to round-off, whatever delta",
                            "rates, " + check, "max |rate - rate at 0.9 h_min| / sum of |terms|", Test::bounds);
   };
   rows.add(same("delta = 1e-12 to 1/2 h_min"),
@@ -171,8 +169,7 @@ void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
 
   const auto difference = [&](const std::string& check) {
     return subject.finding(horizons,
-                           scheme.model == 1 ? "below every gap Model I is the upwind difference (Remark 2.1)"
-                                             : "below every gap Model II is the central difference with viscosity",
+                           fmt::format("below every gap {} is {}", scheme.model->name, scheme.model->nearest.in_words),
                            "matrix, " + check, "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
   };
   rows.add(difference("delta = 1e-12 to 1/2 h_min"), [=](Finding& row) {
@@ -221,12 +218,11 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
   const std::string check = "delta just below period/2";
 
   const auto moment = [&](const Subject& one) {
-    return one.finding(horizons,
-                       scheme.model == 1 ? "at the largest, sum d_k W_k = 1" : "at the largest, sum z_k W_k / N_j = 1",
+    return one.finding(horizons, fmt::format("at the largest, {}", scheme.model->weights.first_moment_claim),
                        check + ", first moment", "max |sum - 1|", Test::bounds);
   };
   rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, sweep)); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
+  const Subject wrong = mistaken(subject, scheme.model->mistakes.inconsistent);
   rows.add_control(moment(wrong), "a part of the kernel is missing",
                    [=](Finding& row) { adopt(row, first_moment_is_one(wrong, sweep)); });
 
@@ -259,7 +255,7 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
   // The central difference of the spline kernel's Model II below every gap, or the upwind one of Model I.
   Subject nearest = subject;
   if (!upwind)
-    nearest = {{.model = 2, .nonlocal_divergence = false, .kernel = {"cubic-spline"}},
+    nearest = {{.model = &model_two, .nonlocal_divergence = false, .kernel = {"cubic-spline"}},
                0.0,
                subject.scene,
                subject.arrangement};
@@ -294,7 +290,7 @@ void add_singular_kernels(ExtremeRows& rows, const SchemeChoice& scheme) {
     finding.theory_order = 1.0;
     return finding;
   };
-  const std::string to_upwind = "Model I goes to the upwind difference like 2 - alpha";
+  const std::string to_upwind = fmt::format("{} goes to the upwind difference like 2 - alpha", scheme.model->name);
   rows.add(named(to_upwind, Test::order, "upwind"), [=](Finding& row) { approach_upwind(row, subject, true); });
   rows.add_control(
       named(to_upwind, Test::order, "central"), "it does not go to the central difference",
@@ -324,7 +320,7 @@ void add_rows_of_resolution(ExtremeRows& rows, const Extremes& extremes) {
   // Once a divergence, whatever alpha the study gives.
   for (const bool nonlocal : {false, true}) {
     const auto singular = std::find_if(extremes.schemes.begin(), extremes.schemes.end(), [&](const SchemeChoice& one) {
-      return one.model == 1 && one.kernel.name == "power" && one.nonlocal_divergence == nonlocal;
+      return one.model->upwind && one.kernel.name == "power" && one.nonlocal_divergence == nonlocal;
     });
     if (singular != extremes.schemes.end()) add_singular_kernels(rows, *singular);
   }

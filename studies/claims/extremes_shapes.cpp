@@ -76,8 +76,8 @@ void carry(Finding& row, const Subject& subject, Followed followed) {
 
 void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
-  const Subject wrong = mistaken(subject, "downwind", "no viscosity"),
-                classical = mistaken(subject, "downwind", "SPH sum");
+  const Mistakes& mistakes = scheme.model->mistakes;
+  const Subject wrong = mistaken(subject, mistakes.not_monotone), classical = mistaken(subject, mistakes.classical);
   const auto add = [&](const std::string& claim, const std::string& quantity, Followed followed) {
     const auto named = [&](const Subject& one) {
       return one.finding(
@@ -87,7 +87,7 @@ void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arr
     };
     rows.add(named(subject), [=](Finding& row) { carry(row, subject, followed); });
     rows.add_control(named(wrong), "a scheme that is not monotone", [=](Finding& row) { carry(row, wrong, followed); });
-    if (scheme.model == 2) {
+    if (!mistakes.classical.empty()) {
       rows.add_control(named(classical), "the classical sum is not monotone",
                        [=](Finding& row) { carry(row, classical, followed); });
     }

@@ -52,10 +52,10 @@ Finding along_path(const Series& series, const SeriesResult& result) {
 Finding consistency(const Subject& subject, const PathChoice& path) {
   const Scene& scene = *subject.scene;
   const bool nonlocal = path.nonlocal_source;
-  Finding finding = subject.finding(
-      subject.scheme.model == 1 ? (nonlocal ? "Lemma 2.3" : "Lemma 2.5") : (nonlocal ? "Lemma 3.2" : "Lemma 3.4"),
-      nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {}, "max |rate + f - du/dt|",
-      Test::rate);
+  Finding finding =
+      subject.finding(std::string(nonlocal ? subject.scheme.model->to_nonlocal : subject.scheme.model->to_pde),
+                      nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {},
+                      "max |rate + f - du/dt|", Test::rate);
   finding.variable = nonlocal ? "h" : "max(h,delta)";
   finding.theory_order = 1.0;
   for (const std::int64_t N : path.N) {

@@ -69,7 +69,8 @@ void read_stability_map(const Table& root, Study& study) {
     root.place(*root.find("scene")).fail("T = 0; growth over T needs time: write T = 1");
   }
   const auto require_viscosity = [](const SchemeChoice& scheme, double mu, const Place& at) {
-    if (scheme.model == 2 && mu == 0.0) at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
+    if (scheme.model->viscous && mu == 0.0)
+      at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
   };
   for (const Subject& subject : subjects)
     require_viscosity(subject.scheme, subject.mu, root.place(*root.find("scheme")));

@@ -65,7 +65,7 @@ std::unique_ptr<Scheme> model2(const SchemeChoice& choice, const Scene& scene, d
 template <class Divergence>
 std::unique_ptr<Scheme> make_with(const SchemeChoice& choice, const Scene& scene, double mu) {
   return with_kernel(choice.kernel, [&]<class K>(const K& kernel) {
-    if (choice.model == 1) return model1<Divergence>(choice, scene, kernel);
+    if (choice.model == &model_one) return model1<Divergence>(choice, scene, kernel);
     if constexpr (IntegrableKernel<K>) return model2<Divergence>(choice, scene, mu, kernel);
     throw std::logic_error("Model II with a kernel that is not integrable");
   });

@@ -48,12 +48,20 @@ inline bool integrable(const KernelChoice& choice) {
   return with_kernel(choice, []<class K>(const K&) { return IntegrableKernel<K>; });
 }
 
-/// int_0^1 eta, which is delta times the L1 norm of Model II's kernel; infinite if the kernel is not integrable.
-inline double total_mass(const KernelChoice& choice) {
-  return with_kernel(choice, []<class K>(const K& kernel) {
-    if constexpr (IntegrableKernel<K>) return kernel.mass(1.0);
+/// int_0^z r eta(r) dr on the unit horizon.
+inline double first_moment(const KernelChoice& choice, double z) {
+  return with_kernel(choice, [z](const auto& kernel) { return kernel.first_moment(z); });
+}
+
+/// int_0^z eta(r) dr on the unit horizon; infinite if the kernel is not integrable.
+inline double mass(const KernelChoice& choice, double z) {
+  return with_kernel(choice, [z]<class K>(const K& kernel) {
+    if constexpr (IntegrableKernel<K>) return kernel.mass(z);
     return std::numeric_limits<double>::infinity();
   });
 }
+
+/// mass(choice, 1), which is delta times the L1 norm of Model II's kernel.
+inline double total_mass(const KernelChoice& choice) { return mass(choice, 1.0); }
 
 }  // namespace acstudy

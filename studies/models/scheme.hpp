@@ -42,7 +42,7 @@ class Scheme {
 };
 
 /// The scheme of a choice on a scene.
-/// @param mu     viscosity bound of Model II
+/// @param mu     viscosity bound, of a viscous model
 /// @param scene  outlives the scheme
 std::unique_ptr<Scheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu);
 

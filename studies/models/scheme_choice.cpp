@@ -7,7 +7,7 @@ namespace acstudy {
 std::string KernelChoice::label() const { return name == "power" ? fmt::format("power({})", alpha) : name; }
 
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
-  std::string text = scheme.model == 1 ? "Model I" : "Model II";
+  std::string text(scheme.model->name);
   if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
   text += ", " + scheme.kernel.label();
   return scheme.control.empty() ? text : fmt::format("{} ({})", scheme.control, text);

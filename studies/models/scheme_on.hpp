@@ -66,4 +66,14 @@ std::unique_ptr<Scheme> on(Model model, const Scene& scene) {
   return std::make_unique<SchemeOn<Model, const Scene&>>(std::move(model), scene);
 }
 
+/// The scheme that `make(kernel, divergence)` makes of the kernel and the divergence of a choice, as types.
+template <class Make>
+std::unique_ptr<Scheme> with_kernel_and_divergence(const SchemeChoice& choice, const Scene& scene, Make&& make) {
+  return with_kernel(choice.kernel, [&](const auto& kernel) -> std::unique_ptr<Scheme> {
+    if (scene.standing()) return make(kernel, NoDivergence{});
+    if (choice.nonlocal_divergence) return make(kernel, NonlocalDivergence{});
+    return make(kernel, LocalDivergence{});
+  });
+}
+
 }  // namespace acstudy

@@ -93,16 +93,19 @@ std::shared_ptr<const Scene> read_scene_with_advection(const Table& table) {
   return scene;
 }
 
-int read_model(const Table& table) {
-  const toml::node& model = table.need("model", "model = 1");
-  const auto number = model.value_exact<std::int64_t>();
-  if (!number || (*number != 1 && *number != 2)) {
-    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
+const ModelCard& read_model(const Table& table) {
+  const toml::node& node = table.need("model", "model = 1");
+  const auto number = node.value_exact<std::int64_t>();
+  const ModelCard* const model = number ? find_model(*number) : nullptr;
+  if (model == nullptr) {
+    std::vector<int> known;
+    for (const ModelCard* card : model_cards()) known.push_back(card->number);
+    table.place(node).fail(fmt::format("model = {}; it must be {}", Table::described(node), fmt::join(known, " or ")));
   }
-  return static_cast<int>(*number);
+  return *model;
 }
 
-KernelChoice read_kernel(const Table& scheme, int model) {
+KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
   const toml::node& node = scheme.need("kernel", "kernel = \"cubic-spline\"");
   static const toml::table no_table;
   const toml::table* const table = node.as_table();
@@ -130,19 +133,20 @@ KernelChoice read_kernel(const Table& scheme, int model) {
       inner.place(*alpha).fail(
           fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
     }
-    if (model == 2 && !integrable(kernel)) {
-      inner.place(*alpha).fail(fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
+    if (model.needs_integrable_kernel() && !integrable(kernel)) {
+      inner.place(*alpha).fail(
+          fmt::format("alpha = {}; {} needs an integrable kernel: alpha < 1", kernel.alpha, model.name));
     }
   } else if (kernel.name == "power" && table != nullptr) {
     inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
   } else if (kernel.name == "power") {
     scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
   }
-  if (model == 2 && !integrable(kernel)) {
+  if (model.needs_integrable_kernel() && !integrable(kernel)) {
     scheme.place(*name_node)
-        .fail(fmt::format("Model II needs an integrable kernel, and the {} kernel is not; write \"cubic-spline\" or "
+        .fail(fmt::format("{} needs an integrable kernel, and the {} kernel is not; write \"cubic-spline\" or "
                           "{{ name = \"power\", alpha = 0.5 }} with alpha < 1",
-                          kernel.name));
+                          model.name, kernel.name));
   }
   return kernel;
 }
@@ -150,16 +154,18 @@ KernelChoice read_kernel(const Table& scheme, int model) {
 SchemeChoice read_scheme(const Table& table, const Scene& scene) {
   table.allow({"model", "divergence", "kernel", "mu"});
   SchemeChoice scheme{};
-  scheme.model = read_model(table);
+  scheme.model = &read_model(table);
   const toml::node* const divergence = table.find("divergence");
   if (divergence != nullptr) {
     scheme.nonlocal_divergence = table.choice<bool>("divergence", *divergence, {{"local", false}, {"nonlocal", true}});
   } else if (!scene.standing()) {
     table.need("divergence", "divergence = \"local\"");
   }
-  scheme.kernel = read_kernel(table, scheme.model);
+  scheme.kernel = read_kernel(table, *scheme.model);
   if (const toml::node* const mu = table.find("mu")) {
-    if (scheme.model == 1) table.place(*mu).fail("Model I has no viscosity; leave mu out");
+    if (!scheme.model->viscous) {
+      table.place(*mu).fail(fmt::format("{} has no viscosity; leave mu out", scheme.model->name));
+    }
     scheme.mu = table.number("mu", *mu);
     if (*scheme.mu < 0.0) {
       table.place(*mu).fail(fmt::format("mu = {}; a viscosity bound must be finite and not negative", *scheme.mu));
@@ -174,9 +180,10 @@ std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene) {
   double widest = -1.0;
   for (const Table& table : root.array_of_tables("scheme")) {
     const SchemeChoice scheme = read_scheme(table, scene);
-    if (scheme.model == 2 && !scheme.mu && widest < 0.0) widest = scene.max_relative_velocity();
-    const double mu = scheme.model == 1 ? 0.0 : scheme.mu.value_or(widest);
-    if (!keys.insert(fmt::format("{}|{}|{}|{}", scheme.model, scheme.nonlocal_divergence, scheme.kernel.label(), mu))
+    if (scheme.model->viscous && !scheme.mu && widest < 0.0) widest = scene.max_relative_velocity();
+    const double mu = scheme.model->viscous ? scheme.mu.value_or(widest) : 0.0;
+    if (!keys.insert(fmt::format("{}|{}|{}|{}", scheme.model->number, scheme.nonlocal_divergence, scheme.kernel.label(),
+                                 mu))
              .second) {
       table.place().fail("the same scheme a second time; leave one of them out");
     }
@@ -220,7 +227,7 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
   }
   const Table scheme_table = table.sub_table("scheme");
   SchemeChoice scheme = read_scheme(scheme_table, scene);
-  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model)) {
+  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model->number)) {
     scheme_table.place().fail(fmt::format(
         "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
         name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
@@ -229,7 +236,7 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
     table.place().fail(fmt::format("{} are those of b = sin(x); use the scene \"lee-du-2019\"", name));
   }
   scheme.control = name;
-  return {scheme, scheme.model == 1 ? 0.0 : scheme.mu.value_or(scene.max_relative_velocity())};
+  return {scheme, scheme.model->viscous ? scheme.mu.value_or(scene.max_relative_velocity()) : 0.0};
 }
 
 Sweep read_sweep(const Table& table, const Scene& scene) {
@@ -363,7 +370,7 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
     time.at_step.fail(
         fmt::format("step = \"cfl\" where {} is zero, so that no bound limits a step; write an expression "
                     "in h and N such as \"h/4\"",
-                    entry.scheme.model == 1 ? "c - b" : "mu"));
+                    entry.scheme.model->step_lemma.limit));
   }
   if (!std::isfinite(bound) || bound <= 0.0) {
     time.at_step.fail(fmt::format(

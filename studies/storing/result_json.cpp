@@ -82,11 +82,11 @@ json series_json(const SeriesResult& result) {
   const Series& series = *result.series;
   const Judgement& judgement = result.judgement;
   json out;
-  out["model"] = series.scheme.model;
+  out["model"] = series.scheme.model->number;
   out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
   out["kernel"] = series.scheme.kernel.name;
   if (series.scheme.kernel.name == "power") out["alpha"] = series.scheme.kernel.alpha;
-  if (series.scheme.model == 2) out["mu"] = series.cases.front().mu;
+  if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
   out["path"] = series.path;
   out["delta"] = series.delta_text;
   out["source"] = series.nonlocal_source ? "nonlocal" : "local";
@@ -216,7 +216,9 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   record.study = study;
   const bool standing = series.value("motion", std::string("moving")) == "standing";
   const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
-  const SchemeChoice scheme{.model = series.at("model").get<int>(),
+  const ModelCard* const model = find_model(series.at("model").get<std::int64_t>());
+  if (model == nullptr) throw std::invalid_argument("model = " + series.at("model").dump() + " is none");
+  const SchemeChoice scheme{.model = model,
                             .nonlocal_divergence = series.at("divergence").get<std::string>() == "nonlocal",
                             .kernel = kernel};
   record.label = scheme_label(scheme, standing) + ", " + series.at("path").get<std::string>();

@@ -67,13 +67,13 @@ double gap_of_model2(K kernel) {
 /// rate of a placed choice on the scene of the paper.
 std::vector<double> rate_of(const SchemeChoice& choice, const Scene& scene, const std::vector<double>& x,
                             double delta) {
-  PlacedScheme scheme(choice, scene, choice.model == 1 ? 0.0 : 4.0 / 3.0, x, delta);
+  PlacedScheme scheme(choice, scene, choice.model == &model_one ? 0.0 : 4.0 / 3.0, x, delta);
   return scheme.rate(irregular_values(x.size(), 5));
 }
 
 SchemeChoice choice_of(const NamedControl& control, int model) {
   // With the inverse kernel, point quadrature is cell moments without a tail.
-  return {.model = model,
+  return {.model = find_model(model),
           .nonlocal_divergence = false,
           .kernel = {"cubic-spline"},
           .mu = std::nullopt,

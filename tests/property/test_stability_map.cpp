@@ -24,7 +24,11 @@ std::shared_ptr<const Scene> with_velocity(const std::string& c) {
 Subject subject(int model, KernelChoice kernel, Arrangement arrangement, std::shared_ptr<const Scene> scene,
                 bool nonlocal = false) {
   const double mu = scene->max_relative_velocity();
-  return {{.model = model, .nonlocal_divergence = nonlocal, .kernel = std::move(kernel), .mu = {}, .control = {}},
+  return {{.model = find_model(model),
+           .nonlocal_divergence = nonlocal,
+           .kernel = std::move(kernel),
+           .mu = {},
+           .control = {}},
           mu,
           std::move(scene),
           arrangement,

@@ -84,7 +84,7 @@ void SweepGroup::remove(const SweptValues& values) {
 }
 
 void SweepGroup::prepare(const Piece& piece, Laps& laps) {
-  if (standing_ || model_ != 1) return;
+  if (standing_ || model_->vector_form != VectorForm::upwind) return;
   for (SweptValues* values : {local_, nonlocal_}) {
     if (values == nullptr) continue;
     product(particles_.c_hat.at(piece.begin), values->u.at(piece.begin), piece.of(values->flux.values()));
@@ -118,14 +118,15 @@ void SweepGroup::sweep_standing(Team& team, const AndThen& and_then) {
 
 void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
   const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(delta_), lanes = sweeps().lanes;
+  const bool upwind = model_->vector_form == VectorForm::upwind;
   const auto scheme = [&](SweptValues* values) {
     SweepScheme swept;
     if (values == nullptr) return swept;
-    if (model_ == 1) {
+    if (upwind) {
       values->flux.wrap(reach);
       swept.flux = values->flux.at(0);
     }
-    values->u.wrap(model_ == 1 ? lanes : reach);
+    values->u.wrap(upwind ? lanes : reach);
     swept.u = values->u.at(0);
     swept.rate = values->rate.data();
     return swept;
@@ -167,7 +168,7 @@ void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
       each_range(32, [&](const Piece& piece) { pairs[piece] += direct(range_of(piece.begin, piece.end), sweep); });
     }
   };
-  if (model_ == 1) {
+  if (upwind) {
     const UpwindSweep sweep{kernel_->sweep,
                             begin_of(particles_.c_hat),
                             begin_of(particles_.b_prime),

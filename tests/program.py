@@ -7,6 +7,9 @@ import subprocess
 import tempfile
 import unittest
 
+import h5py
+import numpy as np
+
 ROOT = Path(__file__).resolve().parent.parent
 ACSTUDY = Path(os.environ.get("ACSTUDY", ROOT / "build" / "acstudy")).resolve()
 
@@ -60,6 +63,52 @@ INLINE = edit(STUDY, (USE, FIELDS))
 # The same where no solution is known: errors are against the finest run.
 UNSOLVED = edit(INLINE, ('u = "cos(x-t)"', 'reference = "finest"\nu0 = "cos(x)"\nf = "sin(x-t)"'))
 
+LEVELS = "[16, 32, 64]"
+SCENE = '"lee-du-2019"'
+# Particles at rest in the flow of a smooth solution: first order from the coarsest level on.
+GOOD = edit(STUDY, (SCENE, '"lagrangian"'), (LEVELS, "[32, 64, 128, 256]"))
+# Both models, both divergences, all kernels, both sources, horizons above, at and below the spacing.
+WIDE = STUDY[:STUDY.index("[[scheme]]")] + """\
+[[scheme]]
+model = 1
+divergence = "local"
+kernel = "inverse"
+
+[[scheme]]
+model = 1
+divergence = "nonlocal"
+kernel = { name = "power", alpha = 0.5 }
+
+[[scheme]]
+model = 2
+divergence = "nonlocal"
+kernel = "cubic-spline"
+mu = 1.5
+
+[time]
+integrator = "ssprk2"
+step = "h/4"
+
+[[path]]
+name = "delta = 4h"
+delta = "4*h"
+N = [16, 32, 64]
+source = "local"
+
+[[path]]
+name = "delta = h^2"
+delta = "h^2"
+N = [16, 32]
+source = "local"
+
+[[path]]
+name = "delta = 1"
+delta = 1
+N = [16, 32]
+source = "nonlocal"
+"""
+CASES_OF_WIDE = 3 * (3 + 2 + 2)
+
 
 def strict_json(text, **options):
     """JSON as a strict parser reads it; Python's own takes NaN and Infinity, too."""
@@ -67,6 +116,31 @@ def strict_json(text, **options):
         raise ValueError(f"{name} is not JSON")
 
     return json.loads(text, parse_constant=refuse, **options)
+
+
+def series_of(file):
+    return [file["series"][name] for name in sorted(file["series"])]
+
+
+def text_of(attribute):
+    return attribute.decode() if isinstance(attribute, bytes) else attribute
+
+
+def numbers(path):
+    """Everything in a result file but how long it took and where it was made, as bytes by name."""
+    content = {}
+
+    def visit(name, item):
+        if name.startswith("provenance"):
+            return
+        for key, value in item.attrs.items():
+            content[f"{name}@{key}"] = np.asarray(value).tobytes()
+        if isinstance(item, h5py.Dataset) and "seconds" not in name and not name.endswith("repeats"):
+            content[name] = item[()].tobytes()
+
+    with h5py.File(path, "r") as file:
+        file.visititems(visit)
+    return content
 
 
 class ProgramTest(unittest.TestCase):

@@ -25,6 +25,8 @@
 #include "studies/commands/list.hpp"
 #include "studies/commands/run/runner.hpp"
 #include "studies/kinds/study_file.hpp"
+#include "studies/storing/files.hpp"
+#include "studies/storing/store_error.hpp"
 
 namespace {
 

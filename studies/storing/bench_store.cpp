@@ -7,9 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "studies/storing/files.hpp"
 #include "studies/storing/h5.hpp"
 #include "studies/storing/json_form.hpp"
-#include "studies/storing/store.hpp"
+#include "studies/storing/keys.hpp"
 
 namespace acstudy {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "studies/storing/store.hpp"
+#include "studies/storing/store_error.hpp"
 
 namespace acstudy::h5 {
 

@@ -13,9 +13,11 @@
 #include <iterator>
 #include <string_view>
 
+#include "studies/storing/case_h5.hpp"
 #include "studies/storing/checksum.hpp"
-#include "studies/storing/h5.hpp"
-#include "studies/storing/stored_parts.hpp"
+#include "studies/storing/files.hpp"
+#include "studies/storing/finding_h5.hpp"
+#include "studies/storing/keys.hpp"
 
 namespace acstudy {
 

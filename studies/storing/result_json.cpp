@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "studies/reading/input_error.hpp"
+#include "studies/storing/estimates.hpp"
 #include "studies/storing/json_form.hpp"
 
 namespace acstudy {

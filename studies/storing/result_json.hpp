@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/storing/store.hpp"
+#include "studies/cases/study_result.hpp"
+#include "studies/storing/provenance.hpp"
 
 namespace acstudy {
 

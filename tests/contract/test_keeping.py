@@ -12,8 +12,7 @@ import unittest
 
 import h5py
 
-from tests.program import ACSTUDY, MODEL_II, ROOT, STUDY, ProgramTest, edit
-from tests.contract.test_cli import LEVELS, numbers
+from tests.program import ACSTUDY, LEVELS, MODEL_II, ROOT, STUDY, ProgramTest, edit, numbers
 
 MARK = b"\n\x89acstudy-rec-1\n"
 # Cases of some hundredths of a second, minutes of them; most are never run here.

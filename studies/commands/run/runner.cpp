@@ -19,7 +19,10 @@
 #include "studies/reading/input_error.hpp"
 #include "studies/running/reference.hpp"
 #include "studies/running/run_case.hpp"
+#include "studies/storing/files.hpp"
 #include "studies/storing/journal.hpp"
+#include "studies/storing/keys.hpp"
+#include "studies/storing/store_error.hpp"
 
 namespace acstudy {
 

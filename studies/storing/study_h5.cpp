@@ -1,0 +1,155 @@
+#include "studies/storing/study_h5.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <thread>
+
+#include "build_info.hpp"
+#include "studies/storing/case_h5.hpp"
+#include "studies/storing/estimates.hpp"
+#include "studies/storing/files.hpp"
+#include "studies/storing/finding_h5.hpp"
+#include "studies/storing/keys.hpp"
+
+namespace acstudy {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* format = "acstudy-1";
+
+void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
+  const Series& series = *result.series;
+  const h5::Handle group = h5::create_group(parent, group_name);
+  h5::write_number<std::int64_t>(group, "model", series.scheme.model->number);
+  h5::write_text(group, "divergence", series.scheme.nonlocal_divergence ? "nonlocal" : "local");
+  h5::write_text(group, "kernel", series.scheme.kernel.name);
+  if (series.scheme.kernel.name == "power") h5::write_number(group, "alpha", series.scheme.kernel.alpha);
+  if (series.scheme.model->viscous) h5::write_number(group, "mu", series.cases.front().mu);
+  h5::write_text(group, "path", series.path);
+  h5::write_text(group, "delta_text", series.delta_text);
+  h5::write_text(group, "source", series.nonlocal_source ? "nonlocal" : "local");
+  h5::write_text(group, "integrator", std::string(series.cases.front().integrator->name));
+  h5::write_text(group, "step_text", series.cases.front().step.label());
+  h5::write_text(group, "start", series.cases.front().start.label());
+  h5::write_text(group, "stepping", series.stepping);
+  h5::write_text(group, "motion", series.cases.front().scene->standing() ? "standing" : "moving");
+  h5::write_text(group, "theory_variable", series.theory.variable);
+  h5::write_number(group, "theory_order", series.theory.order);
+  h5::write_text(group, "theory_statement", series.theory.statement);
+  for (const auto& [name, value] : named_estimates(result.judgement)) {
+    h5::write_number(group, "observed_" + name, value);
+  }
+  h5::write_number(group, "extrapolated_order", result.judgement.extrapolated);
+  h5::write_text(group, "verdict", std::string(name_of(result.judgement.verdict)));
+  h5::write_text(group, "expected", std::string(name_of(series.expected)));
+  h5::write_number<std::int64_t>(group, "as_expected", result.as_expected() ? 1 : 0);
+  h5::write_text(group, "reason", result.judgement.reason);
+  h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
+  h5::write_column<double>(group, "pairwise", result.judgement.pairwise);
+
+  write_cases(group, result, result.completed_levels());
+  if (result.reference() != nullptr) {
+    write_cases(h5::create_group(group, "reference"), result, std::vector{series.levels()});
+  }
+}
+
+/// Another process holds a lock that keeps HDF5 from reading the file.
+bool locked(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_locked = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return is_locked;
+}
+
+/// Opens a file for reading. Waits some two seconds for one that is locked.
+h5::Handle open_when_unlocked(const fs::path& file) {
+  const auto try_it = [&] { return H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT); };
+  hid_t id = try_it();
+  for (int tries = 0; id < 0 && locked(file); ++tries) {
+    if (tries == 8) {
+      throw StoreLocked(fmt::format(
+          "{}: locked: another program holds it open for writing; close it there, or name another folder with --out",
+          file.string()));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    id = try_it();
+  }
+  if (id < 0) id = try_it();  // it may have been unlocked in between
+  return {id, H5Fclose, "open it"};
+}
+
+}  // namespace
+
+std::vector<char> study_h5(const StudyResult& result, const Provenance& provenance) {
+  const Study& study = *result.study;
+  const h5::Handle root = h5::create_file_in_memory(study.name + ".h5");
+  h5::write_text(root, "format", format);
+  h5::write_text(root, "study", study.name);
+  h5::write_text(root, "title", study.title);
+  h5::write_text(root, "kind", study.kind);
+  h5::write_text(root, "study_text", study.text);
+  h5::write_text(root, "study_file", absolute_path(study.file));
+  const h5::Handle origin = h5::create_group(root, "provenance");
+  for (const auto& [name, value] : provenance) h5::write_text(origin, name, value);
+  if (study.scene) {
+    const h5::Handle scene = h5::create_group(root, "scene");
+    const SceneText& text = study.scene->text();
+    h5::write_text(scene, "name", text.name);
+    h5::write_number(scene, "period", study.scene->period());
+    h5::write_number(scene, "T", study.scene->T());
+    h5::write_text(scene, "c", text.c);
+    if (study.scene->solved()) h5::write_text(scene, "u", text.u);
+    if (text.u0) h5::write_text(scene, "u0", *text.u0);
+    if (text.f) h5::write_text(scene, "f", *text.f);
+    if (text.b) h5::write_text(scene, "b", *text.b);
+    if (text.flow) h5::write_text(scene, "flow", *text.flow);
+  }
+  const h5::Handle series = h5::create_group(root, "series");
+  for (std::size_t i = 0; i < result.series.size(); ++i) {
+    write_series(series, fmt::format("{:03}", i), result.series[i]);
+  }
+  const h5::Handle findings = h5::create_group(root, "findings");
+  h5::write_text(root, "findings_key", findings_key(study));
+  for (std::size_t i = 0; i < result.findings.size(); ++i) {
+    if (result.findings[i]) write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
+  }
+  return h5::image(root);
+}
+
+void read_study_h5(const fs::path& file, StoredCases& stored) {
+  const h5::Handle root = open_when_unlocked(file);
+  if (h5::read_text(root, "format") != format) throw StoreError("its format is not " + std::string(format));
+  if (H5Aexists(root, "study_file") > 0) {
+    stored.study_file = h5::read_text(root, "study_file");
+    stored.study_text = h5::read_text(root, "study_text");
+  }
+  const h5::Handle origin = h5::open_group(root, "provenance");
+  // Nothing that other sources have computed is used again, and they may have stored it in another way.
+  if (h5::read_text(origin, "numerics") != build_info::numerics) return;
+  for (const auto& [name, value] : collect_provenance(0, ""))
+    stored.provenance.emplace_back(name, h5::read_text(origin, name));
+  const h5::Handle all = h5::open_group(root, "series");
+  for (const std::string& name : h5::group_names(all)) {
+    const h5::Handle group = h5::open_group(all, name);
+    read_cases(group, stored);
+    if (H5Lexists(group, "reference", H5P_DEFAULT) > 0) read_cases(h5::open_group(group, "reference"), stored);
+  }
+  // Findings of other sources are not used again, so they need not be readable; older files have none.
+  if (H5Lexists(root, "findings", H5P_DEFAULT) <= 0) return;
+  stored.findings_key = h5::read_text(root, "findings_key");
+  if (!of_these_measurements(stored.findings_key)) return;
+  const h5::Handle findings = h5::open_group(root, "findings");
+  for (const std::string& name : h5::group_names(findings)) {
+    stored.findings.emplace(std::stoul(name), read_finding(h5::open_group(findings, name)));
+  }
+}
+
+}  // namespace acstudy

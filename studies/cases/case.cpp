@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/models/control_choice.hpp"
+
 namespace acstudy {
 
 std::string Case::key() const {
@@ -22,7 +24,7 @@ std::string Case::key() const {
       step.bound == StepRule::Bound::none ? std::to_string(steps)
                                           : fmt::format("{}*{:.17g}", step.label(), step.safety),
       start == Start{} ? "" : fmt::format("|start={},{:.17g}", start.label(), start.smallest_gap),
-      scheme.control.empty() ? "" : "|control=" + scheme.control,
+      scheme.control == nullptr ? "" : fmt::format("|control={}", scheme.control->name),
       source_refinement == 1 ? "" : fmt::format("|source_points=x{}", source_refinement),
       readable ? "|form=readable" : "");
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "studies/claims/stability.hpp"
+#include "studies/models/control_choice.hpp"
 
 namespace acstudy {
 
@@ -64,7 +65,7 @@ Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene
 }
 
 Subject mistaken(Subject subject, std::string_view control) {
-  subject.scheme.control = control;
+  subject.scheme.control = find_control(control);
   subject.scheme.nonlocal_divergence = false;
   return subject;
 }
@@ -80,7 +81,7 @@ std::vector<SchemeChoice> standing_schemes(const Extremes& extremes) {
 }
 
 double step_at_cfl_one(Subject subject, const std::vector<double>& x, double delta) {
-  subject.scheme.control.clear();
+  subject.scheme.control = nullptr;
   PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
   return largest_step(subject, placed, StepCondition::corrected);
 }
@@ -88,7 +89,7 @@ double step_at_cfl_one(Subject subject, const std::vector<double>& x, double del
 State run_freely(const Subject& subject, State start, double delta, double T, std::int64_t steps, const Seen& seen) {
   const Scene& scene = *subject.scene;
   const std::size_t count = start.x.size();
-  const std::unique_ptr<Scheme> scheme = make_scheme(subject.scheme, scene, subject.mu);
+  const std::unique_ptr<AnyScheme> scheme = make_scheme(subject.scheme, scene, subject.mu);
   Particles particles(count, scene.period(), delta);
   std::optional<Trajectories> trajectories;
   if (!scene.standing()) trajectories.emplace(scene, start.x);

@@ -14,7 +14,7 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
     const double smallest = gaps({x.begin(), x.end()}, particles.period).smallest;
     return smallest / subject.scheme.model->step_lemma.speed(*subject.scene, subject.mu);
   }
-  return 1.0 / placed.scheme().strongest_decay();
+  return 1.0 / placed.scheme().rows()->strongest_decay();
 }
 
 namespace {
@@ -34,7 +34,7 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
   const double growth = fields.c_hat_1 + fields.b_1;
   // A control is stepped as the scheme that it is taken for.
   SchemeChoice itself = subject.scheme;
-  itself.control.clear();
+  itself.control = nullptr;
   Finding finding = subject.finding(std::string(corrected ? lemma.row_by_row : lemma.name),
                                     growth == 0.0 ? "maximum principle" : "norm <= 1 + dt (||c_hat'|| + ||b'||)",
                                     fmt::format("CFL {:g}", cfl), "max norm of I + dt R", Test::bounds);

@@ -57,11 +57,11 @@ struct Frozen {
     R = sparse_rates(subject, placed);
     lemma = gaps(x, subject.scene->period()).smallest / constants.lemma_speed;
     const auto decay = [&] {
-      if (subject.scheme.control.empty()) return placed.scheme().strongest_decay();
+      if (subject.scheme.control == nullptr) return placed.scheme().rows()->strongest_decay();
       // A control is stepped as the scheme that it is taken for.
       SchemeChoice itself = subject.scheme;
-      itself.control.clear();
-      return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().strongest_decay();
+      itself.control = nullptr;
+      return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().rows()->strongest_decay();
     };
     rows = viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
   }
@@ -103,7 +103,7 @@ Finding finding_on(const Subject& subject, const Integrator& integrator, const s
                    const std::string& claim, const std::string& quantity) {
   Finding finding = subject.finding(fmt::format("{}, {}", subject.scheme.model->step_lemma.name, statement), claim,
                                     std::string(integrator.name), quantity, Test::bounds);
-  if (!subject.scheme.control.empty()) {
+  if (subject.scheme.control != nullptr) {
     finding.expected = Verdict::violated;
     finding.remark = "negative control: unstable at any step";
   }
@@ -267,8 +267,8 @@ Finding sharp_limit(const Subject& subject, const Integrator& integrator, const 
                     double highest) {
   const Constants constants(subject);
   const double C = constants.C;
-  const bool exact =
-      C == 0.0 && measure == Measure::norm && integrator.name == forward_euler.name && subject.scheme.control.empty();
+  const bool exact = C == 0.0 && measure == Measure::norm && integrator.name == forward_euler.name &&
+                     subject.scheme.control == nullptr;
   Finding finding = finding_on(
       subject, integrator, measure == Measure::norm ? "sharp in the max norm" : "sharp in the spectral radius",
       exact ? std::string(subject.scheme.model->step_lemma.sharp) : "stable as far as the rows need, at least",

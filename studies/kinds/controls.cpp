@@ -79,7 +79,8 @@ Finding trajectories(const SchemeEntry& entry, const Scene& scene) {
                   .variable = "",
                   .promised = Verdict::holds};
   SceneText text = scene.text();
-  if (entry.scheme.control == misprinted_trajectories) text.flow = misprinted_flow;
+  const Control* const control = entry.scheme.control;
+  if (control != nullptr && control->flow != nullptr) text.flow = control->flow;
   Point point{.value = 0.0, .lower = 0.0, .upper = 0.0};
   try {
     const Scene checked(text);
@@ -92,7 +93,7 @@ Finding trajectories(const SchemeEntry& entry, const Scene& scene) {
 }
 
 /// A mistake is noticed by some check, and nothing is noticed where there is none.
-Finding alarms(const std::string& control, const std::string& subject, double count) {
+Finding alarms(const Control* control, const std::string& subject, double count) {
   Finding finding{.statement = "detection",
                   .claim = "no check raises an alarm",
                   .subject = subject,
@@ -103,10 +104,9 @@ Finding alarms(const std::string& control, const std::string& subject, double co
                   .promised = Verdict::holds,
                   .expected = Verdict::holds,
                   .points = {{.value = count, .lower = 0.0, .upper = 0.0}}};
-  for (const NamedControl& known : named_controls) {
-    if (known.name != control) continue;
+  if (control != nullptr) {
     finding.claim = "some check raises an alarm";
-    finding.remark = known.mistake;
+    finding.remark = control->mistake;
     finding.points.front().lower = 1.0;
     finding.points.front().upper = HUGE_VAL;
   }

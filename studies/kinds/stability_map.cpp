@@ -79,11 +79,11 @@ void read_stability_map(const Table& root, Study& study) {
     for (const Table& control : root.array_of_tables("control")) {
       control.allow({"name", "scheme"});
       const SchemeEntry entry = read_control(control, scene);
-      if (std::find(unstable_controls.begin(), unstable_controls.end(), entry.scheme.control) ==
+      if (std::find(unstable_controls.begin(), unstable_controls.end(), entry.scheme.control->name) ==
           unstable_controls.end()) {
         control.place(*control.find("name"))
             .fail(fmt::format("name = \"{}\"; only controls that no step of forward Euler keeps stable belong here: {}",
-                              entry.scheme.control, fmt::join(unstable_controls, ", ")));
+                              entry.scheme.control->name, fmt::join(unstable_controls, ", ")));
       }
       require_viscosity(entry.scheme, entry.mu, control.place());
       controls.push_back({entry.scheme, entry.mu, study.scene, Arrangement::uniform});
@@ -106,7 +106,7 @@ void read_stability_map(const Table& root, Study& study) {
       measure(name_of_measurement(subject, integrator, std::string("sharp limit, ") + quantity_of(what)),
               [=, &integrator] { return sharp_limit(subject, integrator, grid, what); });
     }
-    if (subject.arrangement == Arrangement::uniform && subject.scheme.control.empty()) {
+    if (subject.arrangement == Arrangement::uniform && subject.scheme.control == nullptr) {
       measure(name_of_measurement(subject, integrator, "smallest entry of a step"),
               [=, &integrator] { return smallest_entry(subject, integrator, grid); });
     }

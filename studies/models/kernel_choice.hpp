@@ -43,6 +43,16 @@ auto with_kernel(const KernelChoice& choice, Visit&& visit) {
   throw std::logic_error("no kernel is named " + choice.name);
 }
 
+/// The same where the kernel itself has to be integrable.
+/// @throws std::invalid_argument if it is not
+template <class Visit>
+auto with_integrable_kernel(const KernelChoice& choice, Visit&& visit) {
+  return with_kernel(choice, [&]<class K>(const K& kernel) -> decltype(visit(CubicSplineKernel{})) {
+    if constexpr (IntegrableKernel<K>) return visit(kernel);
+    throw std::invalid_argument("kernel " + choice.label() + " is not integrable");
+  });
+}
+
 /// True if Model II can use the kernel.
 inline bool integrable(const KernelChoice& choice) {
   return with_kernel(choice, []<class K>(const K&) { return IntegrableKernel<K>; });

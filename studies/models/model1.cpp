@@ -12,10 +12,11 @@ namespace acstudy {
 
 namespace {
 
-std::unique_ptr<Scheme> make(const SchemeChoice& choice, const Scene& scene, double) {
-  return with_kernel_and_divergence(choice, scene, [&]<class K, class Divergence>(const K& kernel, Divergence) {
-    return on(ModelI<K, Divergence>(kernel), scene);
-  });
+std::unique_ptr<AnyScheme> make(const SchemeChoice& choice, const Scene& scene, double) {
+  const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
+    return on(ModelI<K, Divergence>(kernel), choice, scene);
+  };
+  return with_kernel(choice.kernel, with_divergence(choice, scene, scheme));
 }
 
 /// (2.4), (2.9) and (2.11).

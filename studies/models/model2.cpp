@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "studies/models/model_card.hpp"
 #include "studies/models/scheme_on.hpp"
@@ -14,12 +13,11 @@ namespace acstudy {
 
 namespace {
 
-std::unique_ptr<Scheme> make(const SchemeChoice& choice, const Scene& scene, double mu) {
-  return with_kernel_and_divergence(
-      choice, scene, [&]<class K, class Divergence>(const K& kernel, Divergence) -> std::unique_ptr<Scheme> {
-        if constexpr (IntegrableKernel<K>) return on(ModelII<K, Divergence>(kernel, mu), scene);
-        throw std::logic_error("Model II with a kernel that is not integrable");
-      });
+std::unique_ptr<AnyScheme> make(const SchemeChoice& choice, const Scene& scene, double mu) {
+  const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
+    return on(ModelII<K, Divergence>(kernel, mu), choice, scene);
+  };
+  return with_integrable_kernel(choice.kernel, with_divergence(choice, scene, scheme));
 }
 
 /// (3.6), (3.8) and (3.10).

@@ -19,7 +19,7 @@
 
 namespace acstudy {
 
-class Scheme;
+class AnyScheme;
 struct SchemeChoice;
 
 /// The fast sweep over moving particles (solver/vector/sweeps.hpp) that has a model's rates; none: they are computed in
@@ -54,7 +54,7 @@ struct LemmaEstimate {
 /// How theory bounds a step of forward Euler.
 struct StepLemma {
   std::string_view name;            ///< "Lemma 2.4"
-  std::string_view row_by_row;      ///< what its proof needs of each row, `Scheme::strongest_decay`, as a statement
+  std::string_view row_by_row;      ///< what its proof needs of each row, `SchemeRows::strongest_decay`, as a statement
   std::string_view sharp;           ///< what is known of that condition where c is constant
   std::string_view where_positive;  ///< where explicit steps within it have no negative entry
   std::string_view m_matrix;        ///< what is known of backward Euler's matrix
@@ -112,7 +112,7 @@ struct ModelCard {
   VectorForm vector_form;
   const ContinuumModel* continuum;  ///< the nonlocal model that it discretizes
   /// @param scene  outlives the scheme
-  std::unique_ptr<Scheme> (*make)(const SchemeChoice&, const Scene& scene, double mu);
+  std::unique_ptr<AnyScheme> (*make)(const SchemeChoice&, const Scene& scene, double mu);
   PrintedRate (*printed_rate)(const PrintedAt&);
 
   Theorems theorems;

@@ -11,12 +11,14 @@
 
 namespace acstudy {
 
+struct Control;
+
 struct SchemeChoice {
   const ModelCard* model;
   bool nonlocal_divergence;
   KernelChoice kernel;
-  std::optional<double> mu;  ///< of a viscous model; absent: max |c - b|
-  std::string control;       ///< name of the mistake made on purpose; empty for the scheme itself
+  std::optional<double> mu;          ///< of a viscous model; absent: max |c - b|
+  const Control* control = nullptr;  ///< the mistake made on purpose; null for the scheme itself
 };
 
 /// "Model I, local divergence, inverse"; the divergence is left out where particles stand still.

@@ -217,25 +217,25 @@ std::vector<double> read_positive(const Table& table, std::string_view key, std:
 
 SchemeEntry read_control(const Table& table, const Scene& scene) {
   const std::string name = table.text("name", "name = \"downwind\"");
-  const auto control = std::find_if(named_controls.begin(), named_controls.end(),
-                                    [&](const NamedControl& known) { return known.name == name; });
-  if (control == named_controls.end()) {
+  const Control* const control = find_control(name);
+  if (control == nullptr) {
     std::vector<std::string> known;
-    for (const NamedControl& one : named_controls) known.push_back("\"" + std::string(one.name) + "\"");
+    for (const Control& one : named_controls()) known.push_back(fmt::format("\"{}\"", one.name));
     table.place(*table.find("name"))
         .fail(fmt::format("name = {}; it must be one of {}", in_quotes(name), fmt::join(known, ", ")));
   }
   const Table scheme_table = table.sub_table("scheme");
   SchemeChoice scheme = read_scheme(scheme_table, scene);
-  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model->number)) {
+  if (scheme.nonlocal_divergence || (control->model != nullptr && control->model != scheme.model)) {
+    const ModelCard& right = control->model != nullptr ? *control->model : *model_cards().front();
     scheme_table.place().fail(fmt::format(
-        "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
-        name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
+        "{} is a mistake in {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}", name,
+        control->model != nullptr ? right.name : "any model", right.number));
   }
-  if (name == misprinted_trajectories && scene.text().b != "sin(x)") {
-    table.place().fail(fmt::format("{} are those of b = sin(x); use the scene \"lee-du-2019\"", name));
+  if (control->flow != nullptr && scene.text().b != control->flow_of_b) {
+    table.place().fail(fmt::format("{} are those of b = {}; use the scene \"lee-du-2019\"", name, control->flow_of_b));
   }
-  scheme.control = name;
+  scheme.control = control;
   return {scheme, scheme.model->viscous ? scheme.mu.value_or(scene.max_relative_velocity()) : 0.0};
 }
 

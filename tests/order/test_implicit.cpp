@@ -51,7 +51,7 @@ TEST_CASE("the matrix of the rates multiplies as the rates are summed", "[implic
         const auto x = test::irregular_positions(n, scene.period(), 5);
         PlacedScheme placed(choice, scene, scene.max_relative_velocity(), x, delta);
         RateMatrix R;
-        placed.scheme().matrix(R);
+        placed.scheme().rows()->matrix(R);
         REQUIRE(R.size() == n);
         const auto u = test::irregular_values(n, 7);
         CAPTURE(choice.model->name, choice.nonlocal_divergence, n, delta);
@@ -68,7 +68,7 @@ TEST_CASE("an implicit step solves U - dt R U = g", "[implicit]") {
         const auto x = test::irregular_positions(n, scene.period(), 5);
         PlacedScheme placed(choice, scene, scene.max_relative_velocity(), x, 0.5);
         RateMatrix R;
-        placed.scheme().matrix(R);
+        placed.scheme().rows()->matrix(R);
         ImplicitSolver solver;
         solver.factorize(R, dt);
         const auto g = test::irregular_values(n, 7);
@@ -78,7 +78,7 @@ TEST_CASE("an implicit step solves U - dt R U = g", "[implicit]") {
         for (std::size_t j = 0; j < n; ++j) left[j] = U[j] - dt * left[j];
         CAPTURE(choice.model->name, choice.nonlocal_divergence, n, dt);
         // Backward stable: the residual is round-off of the terms, not of the solution.
-        const double scale = max_norm(g) + max_norm(U) * (1.0 + dt * placed.scheme().strongest_decay());
+        const double scale = max_norm(g) + max_norm(U) * (1.0 + dt * placed.scheme().rows()->strongest_decay());
         for (std::size_t j = 0; j < n; ++j) CHECK(std::abs(left[j] - g[j]) < 1e-13 * scale);
       }
     }
@@ -119,7 +119,7 @@ TEST_CASE("the strongest decay is what each row's own weight allows", "[implicit
       strongest = std::max(strongest, choice.model == &model_two ? mu * reach / stencil.renormalization * sum
                                                                  : std::abs(c_hat[j] - b[j]) * sum);
     }
-    CHECK(placed.scheme().strongest_decay() == Approx(strongest).epsilon(1e-13));
+    CHECK(placed.scheme().rows()->strongest_decay() == Approx(strongest).epsilon(1e-13));
   });
 }
 

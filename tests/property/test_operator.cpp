@@ -28,21 +28,20 @@ Subject subject(int model, KernelChoice kernel, Arrangement arrangement, const s
 const KernelChoice inverse{"inverse"}, spline{"cubic-spline"}, steep{"power", 0.9};
 
 /// Another scheme's weights and rates, with a mistake.
-class Mistaken : public Scheme {
+class Mistaken : public AnyScheme {
  public:
-  explicit Mistaken(std::unique_ptr<Scheme> scheme) : right_(std::move(scheme)) {}
+  explicit Mistaken(std::unique_ptr<AnyScheme> scheme) : right_(std::move(scheme)) {}
   void place(const Particles& particles) override { right_->place(particles); }
   void rate(PeriodicArray& u, std::span<double> du) override {
     right_->rate(u, du);
     for (std::size_t j = 0; j < du.size(); ++j) du[j] *= 1.5;
   }
   Stencil stencil(std::ptrdiff_t j) const override { return right_->stencil(j); }
-  void matrix(RateMatrix& R) const override { right_->matrix(R); }
-  double strongest_decay() const override { return right_->strongest_decay(); }
+  const SchemeRows* rows() const override { return nullptr; }
   WorkCounts work() const override { return right_->work(); }
 
  private:
-  std::unique_ptr<Scheme> right_;
+  std::unique_ptr<AnyScheme> right_;
 };
 
 /// Column by column, with no band.

@@ -49,7 +49,7 @@ struct System {
   }
   void solve(double, double scale, PeriodicArray& u) const {
     RateMatrix R;
-    placed.scheme().matrix(R);
+    placed.scheme().rows()->matrix(R);
     ImplicitSolver solver;
     solver.factorize(R, scale);
     solver.solve(u.values());
@@ -83,7 +83,7 @@ TEST_CASE("the step operator is what integrate does to unit vectors", "[stabilit
 
 TEST_CASE("a control's rates are found by probing", "[stability-map]") {
   Subject one = subject(2, spline, Arrangement::uniform, test::named_scene("constant-velocity"));
-  one.scheme.control = "SPH sum";
+  one.scheme.control = find_control("SPH sum");
   PlacedScheme placed(one.scheme, *one.scene, one.mu, one.positions(20).front(), 0.13);
   const auto u = test::irregular_values(20, 4);
   const Eigen::VectorXd product = sparse_rates(one, placed) * Eigen::Map<const Eigen::VectorXd>(u.data(), 20);
@@ -198,7 +198,7 @@ TEST_CASE("a wrong limit is noticed", "[stability-map]") {
   }
   // Of the SPH sum no step is stable.
   one = subject(2, spline, Arrangement::uniform, test::named_scene("constant-velocity"));
-  one.scheme.control = "SPH sum";
+  one.scheme.control = find_control("SPH sum");
   for (const Measure measure : {Measure::norm, Measure::spectral}) {
     finding = sharp_limit(one, forward_euler, {24, {1.5, 4.0}, {}}, measure);
     CHECK(finding.judgement.verdict == Verdict::violated);

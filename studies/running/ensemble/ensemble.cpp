@@ -36,7 +36,7 @@ double panel_reach(const Case& c) {
 
 bool runs_in_vector_form(const Case& c) {
   if (c.readable) return false;
-  if (c.integrator->implicit() || !c.scheme.control.empty() || c.step.bound == StepRule::Bound::rows) return false;
+  if (c.integrator->implicit() || c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows) return false;
   if (c.scene->standing()) return true;
   switch (c.scheme.model->vector_form) {
     case VectorForm::none:

@@ -53,12 +53,12 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
       mu_(c.mu),
       kernel_label_(c.scheme.kernel.label()) {
   if (!c.scene->standing()) return;
-  const std::unique_ptr<Scheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
+  const std::unique_ptr<AnyScheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
   Particles at_rest(particles.size(), c.scene->period(), c.delta);
   at_rest.place(particles.x.values());
   readable->place(at_rest);
   RateMatrix R;
-  readable->matrix(R);
+  readable->rows()->matrix(R);
   standing_ = std::make_unique<BandedMatrix>(R, sweeps().lanes);
   standing_pairs_ = std::ssize(R.value) - std::ssize(particles.x);
   work_.weight_builds = 1;

@@ -19,7 +19,7 @@ std::string Case::key() const {
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",
-      scheme.kernel.name, scheme.kernel.alpha, mu, nonlocal_source ? "nonlocal" : "local",
+      scheme.kernel.name, scheme.kernel.parameter, mu, nonlocal_source ? "nonlocal" : "local",
       static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta,
       step.bound == StepRule::Bound::none ? std::to_string(steps)
                                           : fmt::format("{}*{:.17g}", step.label(), step.safety),

@@ -252,10 +252,10 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
   const FieldBounds fields = field_bounds(scene, 0.0);
   std::vector<double> u(x.size());
   scene.u(x, 0.0, u);
-  // The central difference of the spline kernel's Model II below every gap, or the upwind one of Model I.
+  // The central difference of Model II with any kernel below every gap, or the upwind one of Model I.
   Subject nearest = subject;
   if (!upwind)
-    nearest = {{.model = &model_two, .nonlocal_divergence = false, .kernel = {"cubic-spline"}},
+    nearest = {{.model = &model_two, .nonlocal_divergence = false, .kernel = integrable_kernel()},
                0.0,
                subject.scene,
                subject.arrangement};
@@ -263,7 +263,7 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
   const std::vector<double> expected = limit.rate(u);
   for (const double alpha : {1.9, 1.99, 1.999, 1.999999}) {
     Subject close = subject;
-    close.scheme.kernel.alpha = alpha;
+    close.scheme.kernel.parameter = alpha;
     PlacedScheme placed(close.scheme, scene, close.mu, x, delta);
     std::vector<double> off = placed.rate(u);
     for (std::size_t j = 0; j < off.size(); ++j) off[j] -= expected[j];
@@ -286,7 +286,8 @@ void add_singular_kernels(ExtremeRows& rows, const SchemeChoice& scheme) {
         exponents, claim,
         fmt::format("delta = 4.5h, alpha = 1.9 to 1.999999, {}{} difference", test == Test::order ? "" : "bound, ", to),
         fmt::format("max |rate - that of the {} difference|", to), test);
-    finding.subject.replace(finding.subject.rfind("power"), std::string::npos, "power(alpha)");
+    finding.subject.replace(finding.subject.rfind(scheme.kernel.name), std::string::npos,
+                            scheme.kernel.name + "(alpha)");
     finding.theory_order = 1.0;
     return finding;
   };
@@ -320,7 +321,8 @@ void add_rows_of_resolution(ExtremeRows& rows, const Extremes& extremes) {
   // Once a divergence, whatever alpha the study gives.
   for (const bool nonlocal : {false, true}) {
     const auto singular = std::find_if(extremes.schemes.begin(), extremes.schemes.end(), [&](const SchemeChoice& one) {
-      return one.model->upwind && one.kernel.name == "power" && one.nonlocal_divergence == nonlocal;
+      const auto& parameter = one.kernel.row().parameter;
+      return one.model->upwind && parameter && parameter->singular_at_two && one.nonlocal_divergence == nonlocal;
     });
     if (singular != extremes.schemes.end()) add_singular_kernels(rows, *singular);
   }

@@ -138,7 +138,7 @@ std::string explain(const Study& study) {
       ++count;
     }
     const ModelCard& model = *series.scheme.model;
-    if (!model.step_lemma.enough_for_every_kernel && series.scheme.kernel.name != "cubic-spline") {
+    if (!model.step_lemma.enough_for_every_kernel && !vanishes_at_origin(series.scheme.kernel)) {
       out += fmt::format(
           "  the bound of {}, 1, is not enough for every kernel: see the section on {} of docs/equations.md\n",
           model.step_lemma.name, model.name);

@@ -1,46 +1,103 @@
 #pragma once
 
 /// @file
-/// The kernels that a study can name: the one place where a name becomes a type.
+/// The kernels that a study can name, a row each: the one place where a name becomes a type.
 
-#include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "solver/kernels.hpp"
+#include "solver/vector/sweeps.hpp"
 
 namespace acstudy {
 
-struct KernelChoice {
-  std::string name;
-  double alpha = 0.0;  ///< of the power family
-  /// "inverse", "power(0.5)".
-  std::string label() const;
+/// A kernel of the solver. A family has a type for each part of its range that can do something else.
+using AnyKernel = std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel>;
+
+/// What tells the members of a family apart.
+struct KernelParameter {
+  std::string_view name;        ///< "alpha"
+  std::string_view role;        ///< "exponent"
+  std::string_view example;     ///< "0.5"
+  std::string_view range;       ///< where there is a kernel: "has a first moment only for a finite alpha < 2"
+  std::string_view integrable;  ///< where it is integrable as well: "alpha < 1"
+  bool (*in_range)(double);
+  /// As it goes to 2, all of the first moment goes to the nearest neighbor like its distance to the power 2 - alpha.
+  bool singular_at_two = false;
 };
 
 struct NamedKernel {
   std::string_view name;
   std::string_view written;  ///< as a study writes it
   std::string_view meaning;
+  AnyKernel (*make)(double parameter);
+  SweepKernel::Form form = SweepKernel::Form::scalar;  ///< of its moments in sweeps: its own, if worth it
+  std::optional<KernelParameter> parameter = {};
+
+  /// As an example: "\"inverse\"", "{ name = \"power\", alpha = 0.5 }".
+  std::string example() const {
+    std::string text = '"' + std::string(name) + '"';
+    if (!parameter) return text;
+    return "{ name = " + text + ", " + std::string(parameter->name) + " = " + std::string(parameter->example) + " }";
+  }
 };
 
 inline constexpr NamedKernel named_kernels[] = {
-    {"inverse", "\"inverse\"", "Model I: eta(s) = 1/(delta s)"},
-    {"power", "{ name = \"power\", alpha = A }", "eta(s) ~ s^-A; Model I: A < 2, Model II: A < 1"},
-    {"cubic-spline", "\"cubic-spline\"", "Model II; Model I: its upwind half, doubled"},
+    {.name = "inverse",
+     .written = "\"inverse\"",
+     .meaning = "Model I: eta(s) = 1/(delta s)",
+     .make = [](double) -> AnyKernel { return InverseKernel{}; },
+     .form = SweepKernel::Form::inverse},
+    {.name = "power",
+     .written = "{ name = \"power\", alpha = A }",
+     .meaning = "eta(s) ~ s^-A; Model I: A < 2, Model II: A < 1",
+     .make = [](double alpha) -> AnyKernel {
+       if (alpha < 1.0) return IntegrablePowerKernel(alpha);
+       return PowerKernel(alpha);
+     },
+     .parameter = KernelParameter{.name = "alpha",
+                                  .role = "exponent",
+                                  .example = "0.5",
+                                  .range = "has a first moment only for a finite alpha < 2",
+                                  .integrable = "alpha < 1",
+                                  .in_range = [](double alpha) { return alpha < 2.0; },
+                                  .singular_at_two = true}},
+    {.name = "cubic-spline",
+     .written = "\"cubic-spline\"",
+     .meaning = "Model II; Model I: its upwind half, doubled",
+     .make = [](double) -> AnyKernel { return CubicSplineKernel{}; },
+     .form = SweepKernel::Form::cubic_spline},
+};
+
+/// Null if there is none.
+inline const NamedKernel* find_kernel(std::string_view name) {
+  for (const NamedKernel& known : named_kernels) {
+    if (known.name == name) return &known;
+  }
+  return nullptr;
+}
+
+struct KernelChoice {
+  std::string name;
+  double parameter = 0.0;  ///< of a family
+
+  /// @throws std::invalid_argument for a name that is none
+  const NamedKernel& row() const {
+    if (const NamedKernel* const found = find_kernel(name)) return *found;
+    throw std::invalid_argument("no kernel is named " + name);
+  }
+  /// "inverse", "power(0.5)"; the name alone if it is none.
+  std::string label() const;
 };
 
 /// Calls `visit` with the kernel itself and returns what it returns.
-/// @throws std::logic_error for a name that is none
 template <class Visit>
 auto with_kernel(const KernelChoice& choice, Visit&& visit) {
-  if (choice.name == "inverse") return visit(InverseKernel{});
-  if (choice.name == "cubic-spline") return visit(CubicSplineKernel{});
-  if (choice.name == "power" && choice.alpha < 1.0) return visit(IntegrablePowerKernel(choice.alpha));
-  if (choice.name == "power") return visit(PowerKernel(choice.alpha));
-  throw std::logic_error("no kernel is named " + choice.name);
+  return std::visit(visit, choice.row().make(choice.parameter));
 }
 
 /// The same where the kernel itself has to be integrable.
@@ -53,9 +110,23 @@ auto with_integrable_kernel(const KernelChoice& choice, Visit&& visit) {
   });
 }
 
-/// True if Model II can use the kernel.
+/// True if the kernel itself is integrable, and not its first moment alone.
 inline bool integrable(const KernelChoice& choice) {
   return with_kernel(choice, []<class K>(const K&) { return IntegrableKernel<K>; });
+}
+
+/// Some integrable kernel, where it is of no matter which.
+inline KernelChoice integrable_kernel() {
+  for (const NamedKernel& known : named_kernels) {
+    const KernelChoice choice{std::string(known.name)};
+    if (!known.parameter && integrable(choice)) return choice;
+  }
+  throw std::logic_error("no kernel without a parameter is integrable");
+}
+
+/// True if eta is smooth up to 0 and 0 there: near neighbors count little.
+inline bool vanishes_at_origin(const KernelChoice& choice) {
+  return with_kernel(choice, [](const auto& k) { return k.origin_exponent() == 0.0 && k.regular_part(0.0) == 0.0; });
 }
 
 /// int_0^z r eta(r) dr on the unit horizon.

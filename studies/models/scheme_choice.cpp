@@ -6,7 +6,10 @@
 
 namespace acstudy {
 
-std::string KernelChoice::label() const { return name == "power" ? fmt::format("power({})", alpha) : name; }
+std::string KernelChoice::label() const {
+  const NamedKernel* const row = find_kernel(name);
+  return row != nullptr && row->parameter ? fmt::format("{}({})", name, parameter) : name;
+}
 
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
   std::string text(scheme.model->name);

@@ -105,48 +105,82 @@ const ModelCard& read_model(const Table& table) {
   return *model;
 }
 
+namespace {
+
+/// What a study can write where the kernel has to be integrable.
+std::string integrable_examples() {
+  std::vector<std::string> written;
+  for (const NamedKernel& known : named_kernels) {
+    if (known.parameter && !known.parameter->integrable.empty()) {
+      written.push_back(fmt::format("{} with {}", known.example(), known.parameter->integrable));
+    } else if (!known.parameter && integrable({std::string(known.name)})) {
+      written.push_back(known.example());
+    }
+  }
+  return fmt::format("{}", fmt::join(written, " or "));
+}
+
+/// The parameter of a family, from the table that names it.
+double read_parameter(const Table& table, const KernelParameter& parameter, const KernelChoice& kernel,
+                      const ModelCard& model) {
+  const std::string name(parameter.name);
+  const toml::node& node = *table.find(name);
+  const double value = table.number(name, node);
+  if (!parameter.in_range(value)) {
+    table.place(node).fail(fmt::format("{} = {}; the {} kernel {}", name, value, kernel.name, parameter.range));
+  }
+  if (model.needs_integrable_kernel() && !integrable({kernel.name, value})) {
+    table.place(node).fail(
+        fmt::format("{} = {}; {} needs an integrable kernel: {}", name, value, model.name, parameter.integrable));
+  }
+  return value;
+}
+
+}  // namespace
+
 KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
-  const toml::node& node = scheme.need("kernel", "kernel = \"cubic-spline\"");
+  const toml::node& node = scheme.need("kernel", fmt::format("kernel = {}", integrable_kernel().row().example()));
   static const toml::table no_table;
   const toml::table* const table = node.as_table();
   const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
+  std::vector<std::string> names, keys = {"name"};
+  std::string family;
+  for (const NamedKernel& known : named_kernels) {
+    names.emplace_back(known.name);
+    if (!known.parameter) continue;
+    if (family.empty()) family = known.example();
+    const std::string key(known.parameter->name);
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  }
   const toml::node* name_node = &node;
   if (table != nullptr) {
-    inner.allow({"name", "alpha"});
-    name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
+    inner.allow(keys);
+    name_node = &inner.need("name", family);
   }
-  KernelChoice kernel{scheme.text("kernel", *name_node, "kernel = \"inverse\"")};
-  std::vector<std::string_view> known;
-  for (const NamedKernel& named : named_kernels) known.push_back(named.name);
-  if (std::find(known.begin(), known.end(), kernel.name) == known.end()) {
+  KernelChoice kernel{scheme.text("kernel", *name_node, fmt::format("kernel = {}", named_kernels[0].example()))};
+  const NamedKernel* const row = find_kernel(kernel.name);
+  if (row == nullptr) {
     scheme.place(*name_node)
-        .fail(fmt::format("unknown kernel {}; known kernels: {}", in_quotes(kernel.name), fmt::join(known, ", ")));
+        .fail(fmt::format("unknown kernel {}; known kernels: {}", in_quotes(kernel.name), fmt::join(names, ", ")));
   }
-
-  const toml::node* const alpha = table != nullptr ? inner.find("alpha") : nullptr;
-  if (alpha != nullptr) {
-    if (kernel.name != "power") {
-      inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
-    }
-    kernel.alpha = inner.number("alpha", *alpha);
-    if (kernel.alpha >= 2.0) {
-      inner.place(*alpha).fail(
-          fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
-    }
-    if (model.needs_integrable_kernel() && !integrable(kernel)) {
-      inner.place(*alpha).fail(
-          fmt::format("alpha = {}; {} needs an integrable kernel: alpha < 1", kernel.alpha, model.name));
-    }
-  } else if (kernel.name == "power" && table != nullptr) {
-    inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
-  } else if (kernel.name == "power") {
-    scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
+  for (const std::string& key : keys) {
+    const toml::node* const given = key != "name" && table != nullptr ? inner.find(key) : nullptr;
+    if (given == nullptr || (row->parameter && row->parameter->name == key)) continue;
+    inner.place(*given).fail(fmt::format("the {} kernel has no {}; leave it out", kernel.name, key));
   }
+  if (row->parameter && table == nullptr) {
+    scheme.place(node).fail(
+        fmt::format("the {} kernel needs its {}; write {}", kernel.name, row->parameter->role, row->example()));
+  }
+  if (row->parameter && inner.find(std::string(row->parameter->name)) == nullptr) {
+    inner.place().fail(
+        fmt::format("the {} kernel has no {}; write {}", kernel.name, row->parameter->name, row->example()));
+  }
+  if (row->parameter) kernel.parameter = read_parameter(inner, *row->parameter, kernel, model);
   if (model.needs_integrable_kernel() && !integrable(kernel)) {
     scheme.place(*name_node)
-        .fail(fmt::format("{} needs an integrable kernel, and the {} kernel is not; write \"cubic-spline\" or "
-                          "{{ name = \"power\", alpha = 0.5 }} with alpha < 1",
-                          model.name, kernel.name));
+        .fail(fmt::format("{} needs an integrable kernel, and the {} kernel is not; write {}", model.name, kernel.name,
+                          integrable_examples()));
   }
   return kernel;
 }

@@ -89,7 +89,9 @@ void for_each_attribute(const BenchSeries& planned, Visit&& visit) {
   visit("model", static_cast<std::int64_t>(series.scheme.model->number));
   visit("divergence", std::string(series.scheme.nonlocal_divergence ? "nonlocal" : "local"));
   visit("kernel", series.scheme.kernel.name);
-  if (series.scheme.kernel.name == "power") visit("alpha", series.scheme.kernel.alpha);
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    visit(std::string(parameter->name), series.scheme.kernel.parameter);
+  }
   if (series.scheme.model->viscous) visit("mu", first.mu);
   visit("path", series.path);
   visit("delta", series.delta_text);

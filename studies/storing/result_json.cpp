@@ -86,7 +86,9 @@ json series_json(const SeriesResult& result) {
   out["model"] = series.scheme.model->number;
   out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
   out["kernel"] = series.scheme.kernel.name;
-  if (series.scheme.kernel.name == "power") out["alpha"] = series.scheme.kernel.alpha;
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    out[std::string(parameter->name)] = series.scheme.kernel.parameter;
+  }
   if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
   out["path"] = series.path;
   out["delta"] = series.delta_text;
@@ -216,7 +218,10 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   SeriesRecord record;
   record.study = study;
   const bool standing = series.value("motion", std::string("moving")) == "standing";
-  const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
+  KernelChoice kernel{series.at("kernel").get<std::string>()};
+  if (const NamedKernel* const row = find_kernel(kernel.name); row != nullptr && row->parameter) {
+    kernel.parameter = series.value(std::string(row->parameter->name), 0.0);
+  }
   const ModelCard* const model = find_model(series.at("model").get<std::int64_t>());
   if (model == nullptr) throw std::invalid_argument("model = " + series.at("model").dump() + " is none");
   const SchemeChoice scheme{.model = model,

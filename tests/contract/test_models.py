@@ -1,4 +1,4 @@
-"""What is of one model stands in its card: nothing else asks which model it has before it."""
+"""Models and kernels each have one home."""
 
 import re
 import unittest
@@ -14,15 +14,18 @@ def questions(text):
     return [line.strip() for line in text.splitlines() if ASKS.search(line)]
 
 
+def sources():
+    return [path.relative_to(ROOT) for top in ("solver", "mms", "reports", "studies", "bench")
+            for path in sorted((ROOT / top).rglob("*.?pp"))]
+
+
 class Models(unittest.TestCase):
-    def sources(self):
-        return [path.relative_to(ROOT) for top in ("solver", "mms", "reports", "studies", "bench")
-                for path in sorted((ROOT / top).rglob("*.?pp"))]
+    """What is of one model stands in its card: nothing else asks which model it has before it."""
 
     def test_no_source_but_a_card_asks_for_one_model(self):
-        self.assertGreater(len(self.sources()), 100)
-        self.assertEqual(len([file for file in self.sources() if CARDS.search(str(file))]), 4)
-        found = {str(file): asked for file in self.sources() if not CARDS.search(str(file))
+        self.assertGreater(len(sources()), 100)
+        self.assertEqual(len([file for file in sources() if CARDS.search(str(file))]), 4)
+        found = {str(file): asked for file in sources() if not CARDS.search(str(file))
                  if (asked := questions((ROOT / file).read_text(encoding="utf-8")))}
         self.assertEqual(found, {})
 
@@ -35,3 +38,25 @@ class Models(unittest.TestCase):
         for line in ("Subject{.model = &model_two}", "if (scheme.model->upwind) return;",
                      "control->model == scheme.model", "model = 1  # in a study"):
             self.assertEqual(questions(line), [])
+
+
+REGISTRY = "studies/models/kernel_choice.hpp"
+
+
+class Kernels(unittest.TestCase):
+    """The name of a kernel stands in its row: nothing else knows it."""
+
+    def setUp(self):
+        rows = re.findall(r'\.name = "([a-z-]+)",\s+\.written', (ROOT / REGISTRY).read_text(encoding="utf-8"))
+        self.assertGreaterEqual(len(rows), 3)
+        self.names = re.compile("|".join(rf'"{row}\\?"' for row in rows))
+
+    def test_no_source_but_the_registry_names_a_kernel(self):
+        found = {str(file): named for file in sources() if str(file) != REGISTRY
+                 if (named := self.names.findall((ROOT / file).read_text(encoding="utf-8")))}
+        self.assertEqual(found, {})
+
+    def test_a_source_that_names_one_is_seen(self):
+        for line in ('if (kernel.name == "power") return;', 'fail("write \\"cubic-spline\\"")', '{"inverse"}'):
+            self.assertEqual(len(self.names.findall(line)), 1, line)
+        self.assertEqual(self.names.findall('text("the power kernel of the inverse")'), [])

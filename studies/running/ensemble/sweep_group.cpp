@@ -19,20 +19,13 @@ ACSTUDY_VECTOR_CLONES void product(const double* a, const double* b, std::span<d
 }  // namespace
 
 struct SweepGroup::Kernel {
-  std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel> kernel;
+  AnyKernel kernel;
   SweepKernel sweep;
 
-  explicit Kernel(const KernelChoice& choice)
-      : kernel(with_kernel(choice, [](const auto& k) -> decltype(kernel) { return k; })) {
+  explicit Kernel(const KernelChoice& choice) : kernel(choice.row().make(choice.parameter)) {
+    sweep.form = choice.row().form;
     std::visit(
         [&]<class K>(const K& k) {
-          if constexpr (std::is_same_v<K, InverseKernel>) {
-            sweep.form = SweepKernel::Form::inverse;
-          } else if constexpr (std::is_same_v<K, CubicSplineKernel>) {
-            sweep.form = SweepKernel::Form::cubic_spline;
-          } else {
-            sweep.form = SweepKernel::Form::scalar;
-          }
           sweep.kernel = &k;
           sweep.first_moment = [](const void* itself, double z) {
             return static_cast<const K*>(itself)->first_moment(z);

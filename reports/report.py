@@ -23,11 +23,11 @@ def main(arguments=None):
     options = _options(arguments)
     try:
         # The libraries load in a second: only once the command line is known to be good.
-        import drawing
-        import results
+        from drawing import processes
+        from reading import results
         try:
             print(report(*_inputs(options)))
-        except (results.ResultError, drawing.DrawingKilled) as error:
+        except (results.ResultError, processes.DrawingKilled) as error:
             return _fail(4, error)
     except UsageError as error:
         return _fail(2, error)
@@ -43,24 +43,22 @@ def main(arguments=None):
 
 def report(folder, files):
     """Draws every figure of the result files and benches and the pages into `folder`; the path of the first page."""
-    import bench_page
-    import bench_results
-    import claims
-    import comparison
-    import drawing
-    import figures
-    import mutants
-    import page
-    import results
+    from drawing import processes
+    from kinds import convergence, registry
+    from kinds.bench import figures as bench_figures
+    from pages import bench as bench_page, claims, comparison, mutants, page
+    from reading import bench_results, results
 
     studies = [results.read_study(file) for file in files]
     _refuse_clashes(studies)
     seeded, compared = mutants.read(folder), comparison.read(folder)
     benches = bench_results.read_all(folder)
-    styles = figures.scheme_styles(studies)
+    styles = convergence.scheme_styles(studies)
     drawings = {}
     names = (*(study.name for study in studies), "cost", "bench")
-    with closing(drawing.of_all(studies, benches, styles)) as drawn_in_turn:
+    tasks = [*((registry.drawings, study, styles) for study in studies),
+             (convergence.cost_drawings, studies, styles), (bench_figures.drawings, benches, styles)]
+    with closing(processes.in_turn(tasks, len(studies) + bool(benches))) as drawn_in_turn:
         for name, drawn in zip(names, drawn_in_turn):
             for one in drawn:
                 for kind, content in one.files.items():

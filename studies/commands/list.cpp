@@ -4,6 +4,7 @@
 
 #include "mms/scene.hpp"
 #include "solver/time/integrators.hpp"
+#include "studies/kinds/kinds.hpp"
 #include "studies/models/model_card.hpp"
 
 namespace acstudy {
@@ -40,6 +41,11 @@ void print_list(const std::string& what) {
       fmt::print("{}{:<35} period {}, T = {}, c = {}, b = {}, u = {}\n", indent, fmt::format("\"{}\"", scene.name),
                  scene.period, scene.T, scene.c, scene.b.value_or("0"), scene.u);
     }
+  }
+  if (what.empty() || what == "kinds") {
+    heading("kinds");
+    for (const Kind* kind : kinds)
+      fmt::print("{}{:<35} {}\n", indent, fmt::format("\"{}\"", kind->name), kind->meaning);
   }
 }
 

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include "studies/kinds/kinds.hpp"
+#include "studies/reading/shared_tables.hpp"
 
 namespace acstudy {
 
+namespace {
+
 void read_consistency(const Table& root, Study& study) {
-  root.allow({"study", "scene", "scheme", "sweep", "path"});
   study.scene = read_scene(root.sub_table("scene"));
   const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
   std::vector<PathChoice> paths;
@@ -40,5 +42,12 @@ void read_consistency(const Table& root, Study& study) {
     }
   }
 }
+
+constexpr TableKeys tables[] = {scene_table, scheme_table, sweep_table, path_table};
+
+}  // namespace
+
+const Kind consistency_kind{"consistency", "truncation errors of the operators, no time stepping", tables,
+                            read_consistency};
 
 }  // namespace acstudy

@@ -11,6 +11,7 @@
 #include "studies/kinds/kinds.hpp"
 #include "studies/models/control_choice.hpp"
 #include "studies/models/operator.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
@@ -146,10 +147,7 @@ Expectations read_expectations(const Table& table, const std::vector<Column>& co
   return expect;
 }
 
-}  // namespace
-
 void read_controls(const Table& root, Study& study) {
-  root.allow({"study", "scene", "time", "source", "path", "consistency", "scheme", "control"});
   const Stepping time = read_problem(root, study);
   if (time.rule.bound == StepRule::Bound::rows) {
     time.at_step.fail("bound = \"rows\"; a control does not say what its rows need: leave bound out");
@@ -213,7 +211,6 @@ void read_controls(const Table& root, Study& study) {
   std::vector<Row> rows;
   for (const SchemeEntry& entry : read_schemes(root, *scene)) rows.push_back({entry, {}});
   for (const Table& table : root.array_of_tables("control")) {
-    table.allow({"name", "scheme", "expect"});
     rows.push_back({read_control(table, *scene), read_expectations(table, columns)});
   }
 
@@ -249,5 +246,22 @@ void read_controls(const Table& root, Study& study) {
                                   }});
   }
 }
+
+constexpr Key control_keys[] = {
+    {"name", "a control", "a mistake, as studies/controls.toml names them"},
+    {"scheme", "table", "the keys of a [[scheme]]: what it is a mistake in"},
+    {"expect", "table", "a verdict by the name of a check", "what a right scheme does"},
+};
+constexpr TableKeys tables[] = {scene_table,
+                                time_table,
+                                source_table,
+                                path_table,
+                                {"[[consistency]]", path_keys},
+                                scheme_table,
+                                {"[[control]]", control_keys}};
+
+}  // namespace
+
+const Kind controls_kind{"controls", "which check notices which deliberate mistake", tables, read_controls};
 
 }  // namespace acstudy

@@ -3,12 +3,14 @@
 #include <set>
 
 #include "studies/kinds/kinds.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 
+namespace {
+
 void read_convergence(const Table& root, Study& study) {
-  root.allow({"study", "scene", "scheme", "time", "path", "source"});
   const std::vector<Stepping> steppings = read_problem_with_steppings(root, study, Solution::may_be_unknown);
 
   const std::vector<Table> path_tables = root.array_of_tables("path");
@@ -30,5 +32,11 @@ void read_convergence(const Table& root, Study& study) {
     }
   }
 }
+
+constexpr TableKeys tables[] = {scene_table, scheme_table, times_table, path_table, source_table};
+
+}  // namespace
+
+const Kind convergence_kind{"convergence", "errors of runs along refinement paths", tables, read_convergence};
 
 }  // namespace acstudy

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "studies/kinds/kinds.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
@@ -26,12 +27,8 @@ std::vector<double> read_positive(const Table& table, const std::string& key, co
   return values;
 }
 
-}  // namespace
-
 void read_digits(const Table& root, Study& study) {
-  root.allow({"study", "weights", "digits", "scene", "gaps"});
   const Table digits = root.sub_table("digits");
-  digits.allow({"ratios"});
   // The particles of larger ratios would fill the memory.
   const std::vector<double> ratios = read_positive(digits, "ratios", "ratios = [1e-12, 0.5, 2.5, 100, 1e4]", 1e5);
   const auto add = [&](const Finding& named, std::function<Finding()> take) {
@@ -40,7 +37,6 @@ void read_digits(const Table& root, Study& study) {
 
   std::set<std::string> known;
   for (const Table& table : root.array_of_tables("weights")) {
-    table.allow({"model", "kernel"});
     const ModelCard* const model = &read_model(table);
     const WeightsChoice choice{model, read_kernel(table, *model)};
     if (!known.insert(fmt::format("{} {}", model->number, choice.kernel.label())).second) {
@@ -65,10 +61,29 @@ void read_digits(const Table& root, Study& study) {
     root.place(*scene).fail("the exact gaps are those of b = sin(x) on the period 2*pi; use the scene \"lee-du-2019\"");
   }
   const Table table = root.sub_table("gaps");
-  table.allow({"N", "times"});
   const std::vector<double> times = read_positive(table, "times", "times = [1, 5, 8]", 30.0);
   const std::int64_t N = table.whole("N", table.need("N", "N = 1000"), 3, 1'000'000);
   add(round_off_of_gaps(*study.scene, N, {}), [=, scene = study.scene] { return round_off_of_gaps(*scene, N, times); });
 }
+
+constexpr Key weights_keys[] = {
+    {"model", "1 or 2", "Model I or Model II"},
+    {"kernel", "a kernel", "as in a [[scheme]]"},
+};
+constexpr Key digits_keys[] = {
+    {"ratios", "list of numbers", "delta/h, at most 1e5"},
+};
+constexpr Key gaps_keys[] = {
+    {"N", "whole number", "particles"},
+    {"times", "list of numbers", "when gaps are compared, at most 30"},
+};
+constexpr TableKeys tables[] = {{"[[weights]]", weights_keys},
+                                {"[digits]", digits_keys},
+                                {"[scene]", scene_keys, true},
+                                {"[gaps]", gaps_keys, true}};
+
+}  // namespace
+
+const Kind digits_kind{"digits", "round-off of weights and renormalizations, against 50 digits", tables, read_digits};
 
 }  // namespace acstudy

@@ -1,12 +1,14 @@
 #include "studies/claims/extremes.hpp"
 
 #include "studies/kinds/kinds.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 
+namespace {
+
 void read_extremes(const Table& root, Study& study) {
-  root.allow({"study", "scheme", "extremes"});
   // Rows bring their own scenes, in some of which particles move: a scheme has to say how it writes the divergence.
   const Scene moving(named_scenes().front());
   Extremes extremes;
@@ -19,7 +21,6 @@ void read_extremes(const Table& root, Study& study) {
   }
   if (root.find("extremes") != nullptr) {
     const Table table = root.sub_table("extremes");
-    table.allow({"N", "steps"});
     const auto most = [&](std::string_view key, std::int64_t& value, std::int64_t least, std::int64_t largest) {
       if (const toml::node* const node = table.find(key)) value = table.whole(key, *node, least, largest);
     };
@@ -28,5 +29,15 @@ void read_extremes(const Table& root, Study& study) {
   }
   study.measurements = extreme_rows(extremes);
 }
+
+constexpr Key extremes_keys[] = {
+    {"N", "whole number", "the largest number of particles", "1000000"},
+    {"steps", "whole number", "the largest number of steps", "1000000"},
+};
+constexpr TableKeys tables[] = {scheme_table, {"[extremes]", extremes_keys, true}};
+
+}  // namespace
+
+const Kind extremes_kind{"extremes", "expectation and observation at the ends of every range", tables, read_extremes};
 
 }  // namespace acstudy

@@ -3,12 +3,14 @@
 #include <set>
 
 #include "studies/kinds/kinds.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
 
+namespace {
+
 void read_identities(const Table& root, Study& study) {
-  root.allow({"study", "scene", "scheme", "sweep"});
   study.scene = read_scene_with_advection(root.sub_table("scene"));
   const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
   const auto add = [&](std::string name, std::function<Finding()> take) {
@@ -46,5 +48,11 @@ void read_identities(const Table& root, Study& study) {
     }
   }
 }
+
+constexpr TableKeys tables[] = {scene_table, scheme_table, sweep_table};
+
+}  // namespace
+
+const Kind identities_kind{"identities", "what the weights satisfy, exactly or within bounds", tables, read_identities};
 
 }  // namespace acstudy

@@ -8,6 +8,7 @@
 #include "studies/cases/study_result.hpp"
 #include "studies/kinds/kinds.hpp"
 #include "studies/models/theory.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
@@ -132,14 +133,10 @@ void require_four(const Table& map, const char* key, std::size_t count) {
   }
 }
 
-}  // namespace
-
 void read_map(const Table& root, Study& study) {
-  root.allow({"study", "scene", "scheme", "time", "source", "map"});
   const Stepping time = read_problem(root, study);
 
   const Table map = root.sub_table("map");
-  map.allow({"delta", "N", "sources"});
   Plane plane{.first = 0, .delta = read_horizons(map), .N = read_levels(map), .h = {}};
   const std::vector<bool> sources = read_sources(map);
   require_four(map, "delta", plane.delta.size());
@@ -227,5 +224,16 @@ void read_map(const Table& root, Study& study) {
     }
   }
 }
+
+constexpr Key map_keys[] = {
+    {"delta", "list of numbers", "horizons, 4 or more, small to large"},
+    {"N", "list of numbers", "levels, 4 or more, coarse to fine"},
+    {"sources", "list of \"local\", \"nonlocal\"", "the solutions that errors are against"},
+};
+constexpr TableKeys tables[] = {scene_table, scheme_table, time_table, source_table, {"[map]", map_keys}};
+
+}  // namespace
+
+const Kind map_kind{"map", "errors over the plane of horizon and spacing", tables, read_map};
 
 }  // namespace acstudy

@@ -94,12 +94,8 @@ Study read_named(const std::string& name, const std::string& by, const Place& at
   return read_study(file.string());
 }
 
-}  // namespace
-
 void read_pollution(const Table& root, Study& study) {
-  root.allow({"study", "pollution"});
   const Table table = root.sub_table("pollution");
-  table.allow({"studies"});
   for (const toml::node& item : table.list("studies", "studies = [\"fig1.toml\"]")) {
     const auto name = item.value_exact<std::string>();
     if (!name) {
@@ -165,5 +161,15 @@ void read_pollution(const Table& root, Study& study) {
     }
   }
 }
+
+constexpr Key pollution_keys[] = {
+    {"studies", "list of files", "convergence studies, relative to this file"},
+};
+constexpr TableKeys tables[] = {{"[pollution]", pollution_keys}};
+
+}  // namespace
+
+const Kind pollution_kind{"pollution", "parts of the finest errors that are not of the scheme in space", tables,
+                          read_pollution};
 
 }  // namespace acstudy

@@ -52,12 +52,8 @@ std::vector<Verdict> never_decide(LevelView, const std::vector<double>& orders) 
   return std::vector(orders.size(), Verdict::inconclusive);
 }
 
-}  // namespace
-
 void read_scan(const Table& root, Study& study) {
-  root.allow({"study", "scan"});
   const Table table = root.sub_table("scan");
-  table.allow({"every", "seed"});
   const auto every = table.whole("every", table.need("every", "every = 23"), 1, 10'000);
   const auto seed = static_cast<std::uint64_t>(table.whole("seed", table.need("seed", "seed = 1"), 0, 1'000'000'000));
   const auto measure = [&](Finding finding, auto points) {
@@ -113,5 +109,15 @@ void read_scan(const Table& root, Study& study) {
           "An interval that takes no correction into account is firm where orders still move.");
   control(decided_verdicts("never decides (control)"), never_decide, put_decided, "Who says nothing is never wrong.");
 }
+
+constexpr Key scan_keys[] = {
+    {"every", "whole number", "judges one series in so many; 1: all"},
+    {"seed", "whole number", "of noise and of the choice"},
+};
+constexpr TableKeys tables[] = {{"[scan]", scan_keys}};
+
+}  // namespace
+
+const Kind scan_kind{"scan", "how often verdicts are firm and wrong, and how often they decide", tables, read_scan};
 
 }  // namespace acstudy

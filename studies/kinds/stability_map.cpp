@@ -7,6 +7,7 @@
 
 #include "studies/kinds/kinds.hpp"
 #include "studies/models/control_choice.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
@@ -47,21 +48,16 @@ struct Curves {
   std::vector<double> cfl;
 };
 Curves read_curves(const Table& table, const Scene& scene, std::int64_t N) {
-  table.allow({"ratio", "cfl"});
   const toml::node& node = table.need("ratio", "ratio = 4");
   const Curves curves{table.number("ratio", node), read_positive(table, "cfl", "cfl = [0.9, 1.5, 2]")};
   check_horizon(scene, N, curves.ratio * scene.period() / static_cast<double>(N), table.place(node));
   return curves;
 }
 
-}  // namespace
-
 void read_stability_map(const Table& root, Study& study) {
-  root.allow({"study", "scene", "scheme", "control", "stability-map", "growth"});
   study.scene = read_scene_with_advection(root.sub_table("scene"));
   const Scene& scene = *study.scene;
   const Table table = root.sub_table("stability-map");
-  table.allow({"N", "ratios", "cfl", "integrators"});
   const StabilityGrid grid = read_grid(table, scene);
   const std::vector<const Integrator*> chosen = read_integrators(table);
   std::vector<Subject> subjects = read_subjects(root, study.scene);
@@ -77,7 +73,6 @@ void read_stability_map(const Table& root, Study& study) {
   std::vector<Subject> controls;
   if (root.find("control") != nullptr) {
     for (const Table& control : root.array_of_tables("control")) {
-      control.allow({"name", "scheme"});
       const SchemeEntry entry = read_control(control, scene);
       if (std::find(unstable_controls.begin(), unstable_controls.end(), entry.scheme.control->name) ==
           unstable_controls.end()) {
@@ -131,5 +126,30 @@ void read_stability_map(const Table& root, Study& study) {
   }
   for (const Subject& subject : controls) draw(subject, forward_euler);
 }
+
+constexpr Key control_keys[] = {
+    {"name", "a control", "a scheme with a mistake, that no step keeps stable"},
+    {"scheme", "table", "the keys of a [[scheme]]: what it is a mistake in"},
+};
+constexpr Key grid_keys[] = {
+    {"N", "whole number", "particles, 8 to 1000"},
+    {"ratios", "list of numbers", "delta/h"},
+    {"cfl", "list of numbers", "steps over the bound of the lemma"},
+    {"integrators", "list of integrators", "each gets its own maps"},
+};
+constexpr Key growth_keys[] = {
+    {"ratio", "number", "delta/h of the curves of growth in time"},
+    {"cfl", "list of numbers", "a curve each"},
+};
+constexpr TableKeys tables[] = {scene_table,
+                                scheme_table,
+                                {"[[control]]", control_keys, true},
+                                {"[stability-map]", grid_keys},
+                                {"[growth]", growth_keys, true}};
+
+}  // namespace
+
+const Kind stability_map_kind{"stability-map", "where steps are stable, over CFL number and horizon", tables,
+                              read_stability_map};
 
 }  // namespace acstudy

@@ -4,12 +4,37 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "studies/kinds/kinds.hpp"
+#include "studies/reading/shared_tables.hpp"
 #include "studies/reading/toml_table.hpp"
 
 namespace acstudy {
+
+namespace {
+
+/// Rejects tables and keys that are not of the kind.
+void allow_keys(const toml::table& document, const Kind& kind, const std::string& file) {
+  std::vector<std::string> names{"study"};
+  for (const TableKeys& table : kind.tables) names.emplace_back(table.name());
+  Table(document, "the study", file).allow(names);
+  for (const TableKeys& table : kind.tables) {
+    const toml::node* const node = document.get(table.name());
+    if (node == nullptr) continue;  // whoever needs it says so
+    if (const toml::table* const one = node->as_table()) {
+      Table(*one, fmt::format("[{}]", table.name()), file).allow(table.keys);
+    } else if (const toml::array* const several = node->as_array()) {
+      for (const toml::node& item : *several) {
+        if (!item.is_table()) continue;
+        Table(*item.as_table(), fmt::format("[[{}]]", table.name()), file).allow(table.keys);
+      }
+    }
+  }
+}
+
+}  // namespace
 
 Study parse_study(const std::string& text, const std::string& file) {
   toml::table document;
@@ -25,14 +50,14 @@ Study parse_study(const std::string& text, const std::string& file) {
   study.file = file;
   study.text = text;
   const Table header = root.sub_table("study");
-  header.allow({"name", "title", "kind"});
+  header.allow(study_keys);
   const toml::node* const kind_node = header.find("kind");
-  study.kind = kind_node == nullptr ? kinds.front().name : header.text("kind", *kind_node, "kind = \"convergence\"");
+  study.kind = kind_node == nullptr ? kinds.front()->name : header.text("kind", *kind_node, "kind = \"convergence\"");
   const auto* const kind =
-      std::find_if(kinds.begin(), kinds.end(), [&](const Kind& known) { return known.name == study.kind; });
+      std::find_if(kinds.begin(), kinds.end(), [&](const Kind* known) { return known->name == study.kind; });
   if (kind == kinds.end()) {
     std::vector<std::string> known;
-    for (const Kind& one : kinds) known.push_back("\"" + std::string(one.name) + "\"");
+    for (const Kind* one : kinds) known.push_back("\"" + std::string(one->name) + "\"");
     header.place(*kind_node)
         .fail(fmt::format("kind = {}; it must be one of {}", in_quotes(study.kind), fmt::join(known, ", ")));
   }
@@ -54,7 +79,8 @@ Study parse_study(const std::string& text, const std::string& file) {
         .fail("name = \"cost\"; the report gives that name to its run-time figure, choose another");
   }
   study.title = header.find("title") != nullptr ? header.text("title", "title = \"...\"") : study.name;
-  kind->read(root, study);
+  allow_keys(document, **kind, file);
+  (*kind)->read(root, study);
   return study;
 }
 
@@ -70,6 +96,19 @@ Study read_study(const std::string& file) {
         fmt::format("{}: {} bytes; a study file may have at most {}: split it", file, text.str().size(), most));
   }
   return parse_study(text.str(), file);
+}
+
+std::vector<Study> read_studies(const std::vector<std::string>& files) {
+  std::vector<Study> studies;
+  std::set<std::string> names;
+  for (const std::string& file : files) {
+    studies.push_back(read_study(file));
+    if (!names.insert(studies.back().name).second) {
+      throw InputError(fmt::format("{}: a second study named \"{}\"; it would overwrite the results of the first", file,
+                                   studies.back().name));
+    }
+  }
+  return studies;
 }
 
 }  // namespace acstudy

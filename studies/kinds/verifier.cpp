@@ -102,10 +102,7 @@ CoverageRow together(const std::vector<CoverageRow>& rows) {
   return sum;
 }
 
-}  // namespace
-
-void read_corpus(const Table& root, Study& study) {
-  root.allow({"study"});
+void read_corpus(const Table&, Study& study) {
   for (const CorpusEntry& entry : verdict_corpus()) {
     Finding finding = corpus_finding(entry);
     const std::string name = finding.label();
@@ -123,9 +120,7 @@ void read_corpus(const Table& root, Study& study) {
 }
 
 void read_coverage(const Table& root, Study& study) {
-  root.allow({"study", "coverage"});
   const Table table = root.sub_table("coverage");
-  table.allow({"series", "seed"});
   const auto series = table.whole("series", table.need("series", "series = 10000"), 100, 10'000'000);
   const auto seed = static_cast<std::uint64_t>(table.whole("seed", table.need("seed", "seed = 1"), 0, 1'000'000'000));
   // One row a class and number of levels; known without drawing anything.
@@ -176,5 +171,17 @@ void read_coverage(const Table& root, Study& study) {
     return finding;
   });
 }
+
+constexpr Key coverage_keys[] = {
+    {"series", "whole number", "how many are drawn, at least"},
+    {"seed", "whole number", "of the draw"},
+};
+constexpr TableKeys coverage_tables[] = {{"[coverage]", coverage_keys}};
+
+}  // namespace
+
+const Kind corpus_kind{"corpus", "verdicts on synthetic series whose right verdict is known", {}, read_corpus};
+const Kind coverage_kind{"coverage", "how often the 95 % interval contains the true order", coverage_tables,
+                         read_coverage};
 
 }  // namespace acstudy

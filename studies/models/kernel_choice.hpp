@@ -3,6 +3,8 @@
 /// @file
 /// The kernels that a study can name, a row each: the one place where a name becomes a type.
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +14,7 @@
 
 #include "solver/kernels.hpp"
 #include "solver/vector/sweeps.hpp"
+#include "studies/models/key.hpp"
 
 namespace acstudy {
 
@@ -20,7 +23,7 @@ using AnyKernel = std::variant<InverseKernel, CubicSplineKernel, PowerKernel, In
 
 /// What tells the members of a family apart.
 struct KernelParameter {
-  std::string_view name;        ///< "alpha"
+  Key key;                      ///< "kernel.alpha", in studies
   std::string_view role;        ///< "exponent"
   std::string_view example;     ///< "0.5"
   std::string_view range;       ///< where there is a kernel: "has a first moment only for a finite alpha < 2"
@@ -28,6 +31,8 @@ struct KernelParameter {
   bool (*in_range)(double);
   /// As it goes to 2, all of the first moment goes to the nearest neighbor like its distance to the power 2 - alpha.
   bool singular_at_two = false;
+
+  constexpr std::string_view name() const { return key.name.substr(key.name.find('.') + 1); }  ///< "alpha"
 };
 
 struct NamedKernel {
@@ -42,7 +47,7 @@ struct NamedKernel {
   std::string example() const {
     std::string text = '"' + std::string(name) + '"';
     if (!parameter) return text;
-    return "{ name = " + text + ", " + std::string(parameter->name) + " = " + std::string(parameter->example) + " }";
+    return "{ name = " + text + ", " + std::string(parameter->name()) + " = " + std::string(parameter->example) + " }";
   }
 };
 
@@ -59,19 +64,37 @@ inline constexpr NamedKernel named_kernels[] = {
        if (alpha < 1.0) return IntegrablePowerKernel(alpha);
        return PowerKernel(alpha);
      },
-     .parameter = KernelParameter{.name = "alpha",
-                                  .role = "exponent",
-                                  .example = "0.5",
-                                  .range = "has a first moment only for a finite alpha < 2",
-                                  .integrable = "alpha < 1",
-                                  .in_range = [](double alpha) { return alpha < 2.0; },
-                                  .singular_at_two = true}},
+     .parameter =
+         KernelParameter{.key = {"kernel.alpha", "number", "exponent of the power kernel: below 2, in Model II below 1",
+                                 "needed by \"power\""},
+                         .role = "exponent",
+                         .example = "0.5",
+                         .range = "has a first moment only for a finite alpha < 2",
+                         .integrable = "alpha < 1",
+                         .in_range = [](double alpha) { return alpha < 2.0; },
+                         .singular_at_two = true}},
     {.name = "cubic-spline",
      .written = "\"cubic-spline\"",
      .meaning = "Model II; Model I: its upwind half, doubled",
      .make = [](double) -> AnyKernel { return CubicSplineKernel{}; },
      .form = SweepKernel::Form::cubic_spline},
 };
+
+/// The keys of the families' parameters, each once.
+inline constexpr auto kernel_keys = [] {
+  constexpr auto is_first_with_key = [](const NamedKernel& row) {
+    const auto same = [&](const NamedKernel& known) {
+      return known.parameter && known.parameter->key.name == row.parameter->key.name;
+    };
+    return row.parameter && std::find_if(std::begin(named_kernels), std::end(named_kernels), same) == &row;
+  };
+  std::array<Key, std::count_if(std::begin(named_kernels), std::end(named_kernels), is_first_with_key)> keys{};
+  std::size_t next = 0;
+  for (const NamedKernel& row : named_kernels) {
+    if (is_first_with_key(row)) keys[next++] = row.parameter->key;
+  }
+  return keys;
+}();
 
 /// Null if there is none.
 inline const NamedKernel* find_kernel(std::string_view name) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "studies/reading/shared_tables.hpp"
+
 namespace acstudy {
 
 namespace {
@@ -62,7 +64,7 @@ Start read_start(const Table& path, const toml::node& node) {
       if (table != nullptr) inner.allow({"name"});
       return start;
     case Start::Kind::jittered:
-      inner.allow({"name", "smallest_gap", "seed"});
+      inner.allow(path_keys, "start");
       break;
     case Start::Kind::clustered:
       inner.allow({"name", "smallest_gap"});
@@ -118,7 +120,6 @@ void read_source(const Table& table, PathChoice& path, bool solved) {
 }  // namespace
 
 PathChoice read_path(const Table& table, bool solved) {
-  table.allow({"name", "delta", "N", "source", "reference", "expect", "order", "start"});
   const toml::node& name = table.need("name", "name = \"delta = 4h\"");
   PathChoice path{.name = table.text("name", name, "name = \"delta = 4h\""),
                   .delta = table.expression("delta", "delta = \"4*h\"", {"h", "N"}),

@@ -8,6 +8,7 @@
 
 #include "studies/models/control_choice.hpp"
 #include "studies/models/theory.hpp"
+#include "studies/reading/shared_tables.hpp"
 
 namespace acstudy {
 
@@ -56,8 +57,6 @@ std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution) {
           fmt::format("unknown scene {}; known scenes: {}", in_quotes(name), fmt::join(known, ", ")));
     }
     text = named_scenes()[found - known.begin()];
-  } else {
-    table.allow({"use", "period", "T", "c", "b", "u", "flow", "reference", "u0", "f"});
   }
   std::size_t offset = 0;
   if (named == nullptr) {
@@ -123,7 +122,7 @@ std::string integrable_examples() {
 /// The parameter of a family, from the table that names it.
 double read_parameter(const Table& table, const KernelParameter& parameter, const KernelChoice& kernel,
                       const ModelCard& model) {
-  const std::string name(parameter.name);
+  const std::string name(parameter.name());
   const toml::node& node = *table.find(name);
   const double value = table.number(name, node);
   if (!parameter.in_range(value)) {
@@ -143,19 +142,14 @@ KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
   static const toml::table no_table;
   const toml::table* const table = node.as_table();
   const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
-  std::vector<std::string> names, keys = {"name"};
-  std::string family;
-  for (const NamedKernel& known : named_kernels) {
-    names.emplace_back(known.name);
-    if (!known.parameter) continue;
-    if (family.empty()) family = known.example();
-    const std::string key(known.parameter->name);
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-  }
+  std::vector<std::string_view> names;
+  for (const NamedKernel& known : named_kernels) names.push_back(known.name);
   const toml::node* name_node = &node;
   if (table != nullptr) {
-    inner.allow(keys);
-    name_node = &inner.need("name", family);
+    inner.allow(scheme_keys, "kernel");
+    const auto* const family = std::find_if(std::begin(named_kernels), std::end(named_kernels),
+                                            [](const NamedKernel& known) { return known.parameter.has_value(); });
+    name_node = &inner.need("name", family->example());
   }
   KernelChoice kernel{scheme.text("kernel", *name_node, fmt::format("kernel = {}", named_kernels[0].example()))};
   const NamedKernel* const row = find_kernel(kernel.name);
@@ -163,18 +157,18 @@ KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
     scheme.place(*name_node)
         .fail(fmt::format("unknown kernel {}; known kernels: {}", in_quotes(kernel.name), fmt::join(names, ", ")));
   }
-  for (const std::string& key : keys) {
-    const toml::node* const given = key != "name" && table != nullptr ? inner.find(key) : nullptr;
-    if (given == nullptr || (row->parameter && row->parameter->name == key)) continue;
-    inner.place(*given).fail(fmt::format("the {} kernel has no {}; leave it out", kernel.name, key));
+  for (const NamedKernel& known : named_kernels) {
+    const std::string key(known.parameter ? known.parameter->name() : "");
+    if (key.empty() || inner.find(key) == nullptr || (row->parameter && row->parameter->name() == key)) continue;
+    inner.place(*inner.find(key)).fail(fmt::format("the {} kernel has no {}; leave it out", kernel.name, key));
   }
   if (row->parameter && table == nullptr) {
     scheme.place(node).fail(
         fmt::format("the {} kernel needs its {}; write {}", kernel.name, row->parameter->role, row->example()));
   }
-  if (row->parameter && inner.find(std::string(row->parameter->name)) == nullptr) {
+  if (row->parameter && inner.find(std::string(row->parameter->name())) == nullptr) {
     inner.place().fail(
-        fmt::format("the {} kernel has no {}; write {}", kernel.name, row->parameter->name, row->example()));
+        fmt::format("the {} kernel has no {}; write {}", kernel.name, row->parameter->name(), row->example()));
   }
   if (row->parameter) kernel.parameter = read_parameter(inner, *row->parameter, kernel, model);
   if (model.needs_integrable_kernel() && !integrable(kernel)) {
@@ -186,7 +180,6 @@ KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
 }
 
 SchemeChoice read_scheme(const Table& table, const Scene& scene) {
-  table.allow({"model", "divergence", "kernel", "mu"});
   SchemeChoice scheme{};
   scheme.model = &read_model(table);
   const toml::node* const divergence = table.find("divergence");
@@ -259,6 +252,7 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
         .fail(fmt::format("name = {}; it must be one of {}", in_quotes(name), fmt::join(known, ", ")));
   }
   const Table scheme_table = table.sub_table("scheme");
+  scheme_table.allow(scheme_keys);
   SchemeChoice scheme = read_scheme(scheme_table, scene);
   if (scheme.nonlocal_divergence || (control->model != nullptr && control->model != scheme.model)) {
     const ModelCard& right = control->model != nullptr ? *control->model : *model_cards().front();
@@ -274,7 +268,6 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
 }
 
 Sweep read_sweep(const Table& table, const Scene& scene) {
-  table.allow({"N", "ratios", "horizons"});
   Sweep sweep{read_levels(table), read_positive(table, "ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
   if (table.find("horizons") != nullptr) {
     sweep.horizons = read_positive(table, "horizons", "horizons = [0.2]");
@@ -288,7 +281,6 @@ Sweep read_sweep(const Table& table, const Scene& scene) {
 namespace {
 
 Stepping read_time(const Table& time) {
-  time.allow({"integrator", "step", "safety", "bound", "expect"});
   std::vector<std::pair<std::string, const Integrator*>> words;
   for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
   Stepping stepping{
@@ -326,7 +318,6 @@ Stepping read_time(const Table& time) {
 SourceRule read_source_rule(const Table& root) {
   if (root.find("source") == nullptr) return SourceRule::gauss;
   const Table source = root.sub_table("source");
-  source.allow({"rule"});
   return source.choice<SourceRule>(
       "rule", source.need("rule", "rule = \"gauss\""),
       {{"gauss", SourceRule::gauss}, {"gsl", SourceRule::gsl}, {"boost", SourceRule::boost}});

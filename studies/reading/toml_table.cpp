@@ -43,6 +43,16 @@ void Table::allow(const std::vector<std::string>& known) const {
   }
 }
 
+void Table::allow(std::span<const Key> keys, std::string_view inner) const {
+  std::vector<std::string> known;
+  for (const Key& key : keys) {
+    const std::size_t dot = key.name.find('.');
+    const bool nested = dot != std::string_view::npos;
+    if ((nested ? key.name.substr(0, dot) : "") == inner) known.emplace_back(key.name.substr(nested ? dot + 1 : 0));
+  }
+  allow(known);
+}
+
 const toml::node& Table::need(std::string_view key, std::string_view example) const {
   const toml::node* const node = find(key);
   if (node == nullptr) place().fail(fmt::format("{} has no \"{}\"; write, for example, {}", title_, key, example));

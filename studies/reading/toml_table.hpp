@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mms/expression.hpp"
+#include "studies/models/key.hpp"
 
 #define TOML_EXCEPTIONS 1
 #include <fmt/ranges.h>
@@ -39,6 +40,8 @@ class Table {
 
   /// Rejects keys that are not in `known`.
   void allow(const std::vector<std::string>& known) const;
+  /// The same; of the keys, those of the inline table `inner`, or those of none.
+  void allow(std::span<const Key> keys, std::string_view inner = "") const;
 
   const toml::node* find(std::string_view key) const { return table_.get(key); }
   const toml::node& need(std::string_view key, std::string_view example) const;

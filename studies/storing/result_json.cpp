@@ -87,7 +87,7 @@ json series_json(const SeriesResult& result) {
   out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
   out["kernel"] = series.scheme.kernel.name;
   if (const auto& parameter = series.scheme.kernel.row().parameter) {
-    out[std::string(parameter->name)] = series.scheme.kernel.parameter;
+    out[std::string(parameter->name())] = series.scheme.kernel.parameter;
   }
   if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
   out["path"] = series.path;
@@ -220,7 +220,7 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   const bool standing = series.value("motion", std::string("moving")) == "standing";
   KernelChoice kernel{series.at("kernel").get<std::string>()};
   if (const NamedKernel* const row = find_kernel(kernel.name); row != nullptr && row->parameter) {
-    kernel.parameter = series.value(std::string(row->parameter->name), 0.0);
+    kernel.parameter = series.value(std::string(row->parameter->name()), 0.0);
   }
   const ModelCard* const model = find_model(series.at("model").get<std::int64_t>());
   if (model == nullptr) throw std::invalid_argument("model = " + series.at("model").dump() + " is none");

@@ -31,7 +31,7 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
   h5::write_text(group, "divergence", series.scheme.nonlocal_divergence ? "nonlocal" : "local");
   h5::write_text(group, "kernel", series.scheme.kernel.name);
   if (const auto& parameter = series.scheme.kernel.row().parameter) {
-    h5::write_number(group, std::string(parameter->name), series.scheme.kernel.parameter);
+    h5::write_number(group, std::string(parameter->name()), series.scheme.kernel.parameter);
   }
   if (series.scheme.model->viscous) h5::write_number(group, "mu", series.cases.front().mu);
   h5::write_text(group, "path", series.path);

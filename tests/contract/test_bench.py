@@ -13,8 +13,7 @@ import numpy as np
 from tests.program import ACSTUDY, MODEL_II, ROOT, STUDY, ProgramTest, edit
 
 sys.path.insert(0, str(ROOT / "reports"))
-import bench_results
-import work_precision
+from reading import bench_results, work_precision
 
 # Horizons are a small part of the period; the count of larger ones is no power of them.
 PATHS = """

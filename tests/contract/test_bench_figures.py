@@ -8,11 +8,8 @@ import numpy as np
 
 from tests.result_files import ReportTest, series, write
 
-import bench_figures
-import bench_results
-import bench_tables
-import results
-import work_precision
+from kinds.bench import figures as bench_figures, tables as bench_tables
+from reading import bench_results, results, work_precision
 
 WORK = ("weight_builds", "quadrature_points", "velocity_evaluations", "flow_evaluations")
 

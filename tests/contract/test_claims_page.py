@@ -11,10 +11,8 @@ import numpy as np
 
 from tests.result_files import ROOT, ReportTest, finding, series, write
 
-import claims
-import findings
-import page
-import results
+from pages import claims, page
+from reading import ledger, results
 
 
 def read(folder, name="ledger", *all_series, **more):
@@ -58,15 +56,15 @@ class Ledger(ReportTest):
         record = finding(statement="Lemma 2.4, growth curve", test="bounds", promised="inconclusive",
                          expected="inconclusive", verdict="inconclusive")
         study = read(self.folder, kind="stability-map", findings=[record, finding(statement="Lemma 2.4, map")])
-        of_paper, further = findings.ledger([study])
+        of_paper, further = ledger.ledger([study])
         self.assertEqual([statement.name for statement in (*of_paper, *further)], ["Lemma 2.4, map"])
-        self.assertEqual(len(findings.entries(study)), 2)
+        self.assertEqual(len(ledger.entries(study)), 2)
 
     def test_statements_stand_in_the_order_of_the_paper_and_others_after_them(self):
         told = ("error budget", "Theorem 2.7 (2)", "Lemma 3.2, D", "Lemma 3.2, A", "(2.3)", "Theorem 2.7 (1), (2)",
                 "Remark 2.1", "(3.4)", "Lemma 3.1", "Lemma 2.3")
         study = read(self.folder, kind="consistency", findings=[finding(statement=one) for one in told])
-        of_paper, further = findings.ledger([study])
+        of_paper, further = ledger.ledger([study])
         self.assertEqual([one.name for one in of_paper],
                          ["(2.3)", "Remark 2.1", "Lemma 2.3", "Theorem 2.7 (1), (2)", "Theorem 2.7 (2)", "Lemma 3.1",
                           "(3.4)", "Lemma 3.2, A", "Lemma 3.2, D"])
@@ -77,13 +75,13 @@ class Ledger(ReportTest):
                          theory_statement="Theorem 2.7 (2): the limit is another")
         studies = [read(self.folder, "fig2", series(), settles),
                    read(self.folder, "map", kind="map", findings=[finding(statement="Theorem 2.7 (2)")])]
-        (statement,), _ = findings.ledger(studies)
+        (statement,), _ = ledger.ledger(studies)
         self.assertEqual((len(statement.entries), len(statement.tested), len(statement.controls)), (3, 2, 1))
         self.assertEqual(statement.worst.verdict, "confirmed")
 
     def test_the_worst_is_what_departs_else_the_least_certain_else_the_nearest_to_its_bound(self):
         def worst(*found):
-            (statement,), _ = findings.ledger([read(self.folder, kind="stability", findings=found)])
+            (statement,), _ = ledger.ledger([read(self.folder, kind="stability", findings=found)])
             return statement.worst.subject
 
         near = finding(subject="near", test="bounds", value=[0.1, 0.9, 0.2, 0.3], upper=1.0)
@@ -100,16 +98,16 @@ class Ledger(ReportTest):
     def test_a_value_that_is_no_number_is_the_worst(self):
         points = read(self.folder, kind="stability", findings=[
             finding(test="bounds", value=[0.1, math.nan, 0.9, 0.2], upper=1.0)]).findings[0].points
-        self.assertEqual(findings.closest(points), (1, -math.inf))
+        self.assertEqual(ledger.closest(points), (1, -math.inf))
 
     def test_wrong_schemes_and_synthetic_series_are_no_evidence(self):
         studies = [read(self.folder, kind, kind=kind, findings=[finding()]) for kind in ("controls", "corpus")]
-        self.assertEqual(findings.ledger(studies), ([], []))
+        self.assertEqual(ledger.ledger(studies), ([], []))
 
 
     def test_a_value_beside_a_round_bound_shows_by_how_much_it_differs(self):
         def measured(value, upper):
-            return findings.measured(read(self.folder, kind="stability", findings=[
+            return ledger.measured(read(self.folder, kind="stability", findings=[
                 finding(N=(80,), test="bounds", value=[value], upper=upper)]).findings[0])
 
         ulp = 2.0**-52

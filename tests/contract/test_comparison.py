@@ -15,9 +15,9 @@ FOLDER = ROOT / "scripts" / "compare"
 sys.path.insert(0, str(FOLDER))
 sys.path.insert(0, str(ROOT / "reports"))
 
-import comparison
+from pages import comparison
 import programs
-import results
+from reading import results
 import selection
 import summary
 

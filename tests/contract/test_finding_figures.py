@@ -9,14 +9,9 @@ import numpy as np
 
 from tests.result_files import ReportTest, finding, series, write
 
-import control_figures
-import coverage_figures
-import drawing
-import figures
-import look
-import map_figures
-import operator_figures
-import results
+from kinds import controls, convergence, coverage, error_map, operators, registry
+from drawing import look
+from reading import results
 
 NOWHERE = dict(value=[math.nan, math.inf, 0.0, -1.0])
 
@@ -27,7 +22,7 @@ class FigureTest(ReportTest):
 
     def texts(self, kind, *found, **more):
         """The SVG of every drawing of a study, by its stem."""
-        drawings = drawing.of_study(self.study(kind, *found, **more), {})
+        drawings = registry.drawings(self.study(kind, *found, **more), {})
         svgs = {one.stem: look.render(one.figure, one.title)["svg"].decode() for one in drawings}
         for text in svgs.values():
             ElementTree.fromstring(text)
@@ -66,7 +61,7 @@ class Operators(FigureTest):
         self.assertEqual(self.texts("stability", finding(test="bounds")), {})
         self.assertEqual(len(self.texts("stability", finding(test="bounds", upper=1.01, **NOWHERE))), 1)
         self.assertEqual(len(self.texts("identities", finding(test="bounds", upper=1.0, **NOWHERE))), 1)
-        for kind in (*drawing._OF_KIND, "corpus", "a kind of tomorrow"):
+        for kind in (*registry._DRAWINGS, "corpus", "a kind of tomorrow"):
             self.assertEqual(self.texts(kind, name="none"), {})
 
     def test_digits_have_one_bound_and_pale_controls(self):
@@ -91,7 +86,7 @@ class Operators(FigureTest):
 
     def test_deviations_are_relative_to_what_is_allowed(self):
         def relative(**more):
-            return operator_figures._relative(self.study("identities", finding(test="bounds", **more)).findings[0])
+            return operators._relative(self.study("identities", finding(test="bounds", **more)).findings[0])
 
         self.assertEqual(relative(N=(1, 2), value=[0.5, -3.0], lower=-4.0, upper=2.0), (2 / 3, 2.0))
         self.assertEqual(relative(N=(1, 2), value=[0.5, 0.2], upper=2.0), (0.25, 0.5))
@@ -101,7 +96,7 @@ class Operators(FigureTest):
     def test_growth_is_relative_to_its_bound_and_the_worst_of_all_particle_numbers(self):
         one = self.study("stability", finding(test="bounds", value=[1.01, 1.04, 1.0, 1.03], upper=1.02,
                                               variable=np.array([1.0, 1.0, 0.1, 10.0]))).findings[0]
-        x, growth = operator_figures._growth(one)
+        x, growth = operators._growth(one)
         np.testing.assert_array_equal(x, [0.1, 1.0, 10.0])
         np.testing.assert_allclose(growth, [0.0, 2.0, 1.5])
 
@@ -113,7 +108,7 @@ class DetectionMatrix(FigureTest):
                  for check in ("delta = 4h", "step norm")]
         found[0] |= alarm
         study = self.study("controls", *found)
-        self.assertEqual(control_figures.rows_and_columns(study.findings),
+        self.assertEqual(controls.rows_and_columns(study.findings),
                          (["true", "downwind"], ["delta = 4h", "step norm"]))
         text, = self.texts("controls", *found).values()
         self.assertEqual((text.count(">stagnates<"), text.count(">1<"), text.count(">0<")), (1, 1, 1))
@@ -144,7 +139,7 @@ class Maps(FigureTest):
 
     def test_a_map_has_every_case_in_its_place(self):
         study = self.study("map", all_series=self.all_series())
-        planes = map_figures.error_planes(study.series)
+        planes = error_map.error_planes(study.series)
         self.assertEqual([source for _, source in planes], ["local", "nonlocal"])
         for (_, source), (h, delta, error) in planes.items():
             self.assertTrue(np.all(np.diff(h) > 0) and np.all(np.diff(delta) > 0))
@@ -160,8 +155,8 @@ class Maps(FigureTest):
         self.assertIn("0.98 [0.90, 1.06]", texts["map"])
         self.assertIn("1.02 [1.00, 1.04]", texts["map"])
         study = self.study("map", fit, all_series=self.all_series())
-        self.assertIsNone(figures.cost_figure([study], figures.scheme_styles([study])))
-        caption = map_figures.drawings(study)[0].caption
+        self.assertIsNone(convergence.cost_figure([study], convergence.scheme_styles([study])))
+        caption = error_map.drawings(study)[0].caption
         self.assertIn("error = (a^m + b^m)^(1/m)", caption)
         self.assertIn("plain sum a + b is larger by 300.", caption)
 
@@ -185,7 +180,7 @@ class Measurement(FigureTest):
 
     def test_coverage_has_binomial_intervals(self):
         share, trials = np.array([0.95, 1.0, 0.0]), np.array([1000, 50, 20])
-        for bound, at_edge in zip(coverage_figures.wilson(share, trials), (2, 1)):
+        for bound, at_edge in zip(coverage.wilson(share, trials), (2, 1)):
             # Wilson's bounds are the true shares p from which the observed one is 1.96 standard deviations away.
             np.testing.assert_allclose((share - bound) ** 2, 1.959964 ** 2 * bound * (1 - bound) / trials, atol=1e-12)
             self.assertAlmostEqual(bound[at_edge], share[at_edge])

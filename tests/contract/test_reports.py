@@ -19,18 +19,14 @@ import numpy as np
 
 from tests.result_files import ROOT, ReportTest, series, write
 
-import axes
-import figures
-import look
-import mutants
-import names
-import page
-import results
-import svg
+from drawing import axes, look, svg
+from kinds import convergence
+from pages import mutants, page
+from reading import names, results
 
 
 def images(study):
-    return look.render(figures.error_figure(study, figures.scheme_styles([study])), study.title)
+    return look.render(convergence.error_figure(study, convergence.scheme_styles([study])), study.title)
 
 
 class Reading(ReportTest):
@@ -198,7 +194,7 @@ class Stopping(ReportTest):
         """(exit code, stdout, stderr) with `render` in place of the rendering, in two processes."""
         write(self.folder, "fig1", series())
         write(self.folder, "fig2", series())
-        with mock.patch("os.sched_getaffinity", lambda _: {0, 1}), mock.patch("look.render", render):
+        with mock.patch("os.sched_getaffinity", lambda _: {0, 1}), mock.patch("drawing.look.render", render):
             stopped = self.run_report(self.folder)
         self.assertFalse((self.folder / "index.html").exists())
         self.assertEqual(multiprocessing.active_children(), [])
@@ -246,7 +242,7 @@ class Figures(ReportTest):
         text = images(study)["svg"].decode()
         for note in ("2 of 4 levels not finite", "4 of 4 levels not finite", "1 of 4 levels zero"):
             self.assertIn(note, text)
-        self.assertIsNotNone(figures.cost_figure([study], figures.scheme_styles([study])))
+        self.assertIsNotNone(convergence.cost_figure([study], convergence.scheme_styles([study])))
         alone = results.read_study(write(self.folder, "fig2", lost))
         self.assertIn("4 of 4 levels not finite", images(alone)["svg"].decode())
         self.assertIn("nan", page.html([study], {}))
@@ -257,27 +253,27 @@ class Figures(ReportTest):
             del file["scene"].attrs["u"]
             file["scene"].attrs["u0"] = "exp(sin(x))"
         study = results.read_study(path)
-        drawing = figures.drawings(study, figures.scheme_styles([study]))[0]
+        drawing = convergence.drawings(study, convergence.scheme_styles([study]))[0]
         self.assertIn("differences to a finer run", drawing.caption)
         self.assertIn("max-norm difference to a finer run", images(study)["svg"].decode())
         self.assertIn("initial values u0", page.html([study], {}))
         # Nor do they stand beside errors over run time.
-        self.assertIsNone(figures.cost_figure([study], figures.scheme_styles([study])))
+        self.assertIsNone(convergence.cost_figure([study], convergence.scheme_styles([study])))
 
     def test_a_study_without_series_has_no_figure(self):
         study = results.read_study(write(self.folder, "fig1"))
-        self.assertIsNone(figures.error_figure(study, {}))
-        self.assertIsNone(figures.cost_figure([study], {}))
+        self.assertIsNone(convergence.error_figure(study, {}))
+        self.assertIsNone(convergence.cost_figure([study], {}))
         self.assertIn("No series has been run", page.html([study], {}))
 
     def test_series_run_by_several_studies_are_drawn_once(self):
         studies = [results.read_study(path) for path in (
             write(self.folder, "fig2", series(), series(divergence="nonlocal", N=(160, 320))),
             write(self.folder, "fig5", series(), series(divergence="nonlocal"), series(step_text="h/8")))]
-        chosen = figures.cost_curves(studies)
+        chosen = convergence.cost_curves(studies)
         self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
                          [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
-        text = look.render(figures.cost_figure(studies, figures.scheme_styles(studies)), "cost")["svg"].decode()
+        text = look.render(convergence.cost_figure(studies, convergence.scheme_styles(studies)), "cost")["svg"].decode()
         for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
                      "Model I, nonlocal divergence"):
             self.assertEqual(text.count(f">{name}<"), 1, name)
@@ -287,7 +283,7 @@ class Figures(ReportTest):
                    for model, kernel in ((1, "inverse"), (2, "cubic-spline"), (1, "cubic-spline"), (1, "power"))
                    for divergence in ("local", "nonlocal")]
         study = results.read_study(write(self.folder, "fig1", *schemes))
-        styles = figures.scheme_styles([study])
+        styles = convergence.scheme_styles([study])
         self.assertEqual(len({(style.color, style.marker, style.filled) for style in styles.values()}), 8)
         self.assertTrue(all(style.filled == (scheme.divergence == "local") for scheme, style in styles.items()))
         self.assertIn("Model I, power kernel, local divergence",

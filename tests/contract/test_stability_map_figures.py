@@ -9,13 +9,11 @@ import numpy as np
 
 from tests.result_files import ReportTest, finding, write
 
-import drawing
-import look
-import results
-import stability_map_curves
-import stability_map_figures
-import stability_map_findings
-import stability_map_table
+from drawing import look
+from reading import results
+from kinds import registry
+from kinds.stability_map import (curves as stability_map_curves, findings as stability_map_findings,
+                                 maps as stability_map_maps, table as stability_map_table)
 
 RATIOS, CFL = (0.5, 2.0, 8.0), (0.5, 1.0, 2.0, 4.0)
 GROWTH = stability_map_findings.GROWTH
@@ -67,7 +65,7 @@ class StabilityMapTest(ReportTest):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             warnings.filterwarnings("ignore", module="pyparsing|matplotlib.*mathtext", category=DeprecationWarning)
-            drawn = drawing.of_study(self.study(*found, **more), {})
+            drawn = registry.drawings(self.study(*found, **more), {})
             for one in drawn:
                 look.render(one.figure, one.title)
         return {one.stem.partition(".")[2]: one for one in drawn}
@@ -95,13 +93,13 @@ class Maps(StabilityMapTest):
         np.testing.assert_allclose(cfl, CFL)
         self.assertEqual(values.shape, (4, 3))
         np.testing.assert_allclose(values[:, 0], [1.0, 1.0, 50.0, 1e300])
-        bands = stability_map_figures.band([1.0, 1 + 1e-9, 1.01, 3.5, 1e6 * 1.01, 1e300, math.inf, math.nan], 1.0)
+        bands = stability_map_maps.band([1.0, 1 + 1e-9, 1.01, 3.5, 1e6 * 1.01, 1e300, math.inf, math.nan], 1.0)
         np.testing.assert_array_equal(bands, [0, 0, 1, 2, 8, 8, 8, math.nan])
-        np.testing.assert_array_equal(stability_map_figures.band([11.0, 13.0], 12.0), [0, 1])
+        np.testing.assert_array_equal(stability_map_maps.band([11.0, 13.0], 12.0), [0, 1])
 
     def test_cells_meet_half_way_and_a_single_one_has_a_width(self):
-        np.testing.assert_allclose(stability_map_figures.edges(np.array([1.0, 4.0])), [0.5, 2.0, 8.0])
-        low, high = stability_map_figures.edges(np.array([3.0]))
+        np.testing.assert_allclose(stability_map_maps.edges(np.array([1.0, 4.0])), [0.5, 2.0, 8.0])
+        low, high = stability_map_maps.edges(np.array([3.0]))
         self.assertTrue(low < 3.0 < high)
 
     def test_cells_beside_one_another_of_one_band_are_one_and_holes_are_none(self):

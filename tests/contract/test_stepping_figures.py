@@ -7,9 +7,8 @@ import numpy as np
 
 from tests.result_files import ReportTest, series, write
 
-import figures
-import results
-import stepping_figures
+from kinds import convergence, stepping
+from reading import results
 
 
 def ways(**changes):
@@ -33,7 +32,7 @@ class SteppingFigures(ReportTest):
     def test_a_panel_per_path_and_scheme_and_a_curve_per_way(self):
         study = self.study(*ways(), *ways(path="delta = h^2"), *ways(model=2, kernel="cubic-spline", mu=1.5))
         self.assertTrue(study.steps_in_several_ways)
-        drawing, = stepping_figures.drawings(study)
+        drawing, = stepping.drawings(study)
         panels = drawing.figure.axes
         self.assertEqual(len(panels), 3)
         for panel in panels:
@@ -45,12 +44,12 @@ class SteppingFigures(ReportTest):
     def test_a_way_of_which_every_run_blows_up_is_named(self):
         lost = ways()
         lost[1]["error_linf"] = np.full(4, math.nan)
-        drawing, = stepping_figures.drawings(self.study(*lost))
+        drawing, = stepping.drawings(self.study(*lost))
         texts = [text.get_text() for legend in drawing.figure.legends for text in legend.get_texts()]
         self.assertEqual(texts, ["forward-euler, step 0.9 cfl", "forward-euler, step h/4: blows up", "sdirk2, step h/2"])
 
     def test_the_table_says_what_each_way_came_to(self):
-        table = stepping_figures.table(self.study(*ways()))
+        table = stepping.table(self.study(*ways()))
         rows = table.split("<tr")[2:]
         self.assertEqual(len(rows), 3)
         self.assertIn("0.9", rows[0])
@@ -61,7 +60,7 @@ class SteppingFigures(ReportTest):
         self.assertNotIn("step 124", rows[0] + rows[2])
 
     def test_they_stay_out_of_the_figure_of_all_run_times(self):
-        self.assertIsNone(figures.cost_figure([self.study(*ways())], {}))
+        self.assertIsNone(convergence.cost_figure([self.study(*ways())], {}))
 
     def test_the_page_has_table_figure_and_every_series(self):
         write(self.folder, "stiff", *ways())

@@ -1,0 +1,1 @@
+"""What every figure is drawn with: its look, logarithmic axes, SVG that reads anywhere, several processes."""

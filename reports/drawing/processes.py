@@ -1,0 +1,88 @@
+"""The drawing of figures by several processes."""
+
+from contextlib import suppress
+from dataclasses import replace
+from itertools import islice
+import multiprocessing
+from multiprocessing.connection import wait
+import os
+import signal
+
+from drawing import look
+
+
+class DrawingKilled(Exception):
+    """A drawing process ended before its drawing did; the text is one line."""
+
+
+def in_turn(tasks, at_most):
+    """The rendered drawings of each task (draw, *arguments): an iterator of lists, in the order of the tasks;
+    by `at_most` processes.
+
+    DrawingKilled if a process of the drawing was killed. Ended early, it leaves no process.
+    """
+    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    processes = min(at_most, usable)
+    if processes < 2:
+        yield from map(_rendered, tasks)
+        return
+    # concurrent.futures would wait for what is being drawn after an interrupt, or hang where a process was killed while
+    # it sent. Here each process has a connection of its own, which ends with it.
+    workers = {}
+    try:
+        for _ in range(processes):
+            connection, process = _start(tasks)
+            workers[connection] = process
+        yield from _in_turn(len(tasks), list(workers))
+    finally:
+        for process in workers.values():
+            process.kill()
+            process.join()
+
+
+def _start(tasks):
+    """(connection, process) that gets indices of `tasks` and sends back (index, drawings, error)."""
+    here, there = multiprocessing.Pipe()
+    process = multiprocessing.Process(target=_work, args=(there, tasks), daemon=True)
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})    # only the first process answers an interrupt
+    try:
+        process.start()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+    there.close()
+    return here, process
+
+
+def _work(connection, tasks):
+    with suppress(EOFError, ConnectionError):   # the first process is gone
+        while True:
+            i = connection.recv()
+            try:
+                message = i, _rendered(tasks[i]), None
+            except Exception as error:
+                message = i, None, error
+            connection.send(message)
+
+
+def _in_turn(count, connections):
+    """What the tasks 0 .. count - 1 give, in this order; a process gets its next task when it is done with the last."""
+    left, done = iter(range(count)), {}
+    try:
+        for connection, i in zip(connections, left):
+            connection.send(i)
+        for turn in range(count):
+            while turn not in done:
+                for connection in wait(connections):
+                    i, done[i], error = connection.recv()
+                    if error:
+                        raise error
+                    for following in islice(left, 1):
+                        connection.send(following)
+            yield done.pop(turn)
+    except (EOFError, ConnectionError) as error:
+        raise DrawingKilled("a drawing process was killed; free memory and draw again") from error
+
+
+def _rendered(task):
+    draw, *arguments = task
+    return [replace(one, files=look.render(one.figure, one.title), figure=None) for one in draw(*arguments)]

@@ -1,0 +1,211 @@
+"""The plane of horizon and spacing: a map of the error for every scheme and target, and cuts through it."""
+
+import math
+import textwrap
+
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import Stroke, Normal
+import matplotlib
+import numpy as np
+
+from drawing import axes
+from drawing.look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from reading import names
+
+# Refinement paths: name, horizon at spacing h, dashes.
+PATHS = ((r"$\delta=4h$", lambda h: 4 * h, "solid"), (r"$\delta=\sqrt{h}$", np.sqrt, (0, (5, 1.6))),
+         (r"$\delta=h^2$", lambda h: h ** 2, (0, (1.2, 1.2))),
+         (r"$\delta=0.2$", lambda h: 0.2 + 0 * h, (0, (6, 1.4, 1.2, 1.4))))
+TARGETS = {"nonlocal": "error against the nonlocal model", "local": "error against the local equation"}
+
+
+def drawings(study):
+    planes = error_planes(study.series)
+    if not planes:
+        return []
+    described = "for every scheme against both targets. Values: the result file."
+    return [
+        Drawing(study.name, study.title, map_figure(study, planes),
+                f"Color maps of the max-norm error over spacing h and horizon delta {described}",
+                "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
+                f"dots are the cases. Lines: refinement paths. {_fit_caption(study)}Asymptotic compatibility: against "
+                "the nonlocal model the error falls to the left at every horizon, against the local equation toward "
+                "the lower left, however that is approached."),
+        Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.series, planes),
+                f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
+                "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "
+                "edge; it is wide where a cut passes from δ < h to δ > h. Right: error at the finest spacing; against "
+                "the local equation it approaches the distance of the two solutions, O(δ).")]
+
+
+def error_planes(series):
+    """{(scheme, source): (h [n], delta [m], error [m, n])}, ascending; NaN: no case."""
+    cases = {}
+    for one in series:
+        for h, delta, error in zip(one.cases.h, one.cases.delta, one.cases.error_linf):
+            cases.setdefault((one.scheme, one.source), {})[float(f"{h:.9g}"), float(f"{delta:.9g}")] = error
+    planes = {}
+    for key, found in cases.items():
+        h, delta = (np.array(sorted(set(values))) for values in zip(*found))
+        error = np.array([[found.get((x, y), math.nan) for x in h] for y in delta])
+        planes[key] = h, delta, np.where(np.isfinite(error) & (error > 0), error, math.nan)
+    return planes
+
+
+def map_figure(study, planes):
+    """A column per scheme, a row per target; one scale of color."""
+    with typography():
+        schemes = list(dict.fromkeys(scheme for scheme, _ in planes))
+        targets = [target for target in TARGETS if any(source == target for _, source in planes)]
+        labels = names.scheme_names(schemes)
+        left, right, gap, head, foot = 0.85, 0.95, 0.14, 0.5, 0.9
+        titles = {(scheme, target): _fit_text(study, scheme, target) for scheme, target in planes}
+        spaces = [0.3 + (0.38 if any(titles.get((scheme, target)) for scheme in schemes) else 0.0)
+                  for target in targets]
+        width = min(3.0, (WIDTH - left - right - (len(schemes) - 1) * gap) / len(schemes))
+        tall = 1.15 * width
+        height = len(targets) * (tall + 0.18) + sum(spaces) - 0.18
+        figure = blank(head + height + foot)
+        total = figure.get_figheight()
+        levels = _levels([error for *_, error in planes.values()])
+        colors = matplotlib.colormaps["cividis"]
+        norm = BoundaryNorm(levels, colors.N)
+        for row, target in enumerate(targets):
+            bottom = total - head - (row + 1) * tall - row * 0.18 - sum(spaces[:row + 1])
+            for column, scheme in enumerate(schemes):
+                if (scheme, target) not in planes:
+                    continue
+                h, delta, error = planes[scheme, target]
+                panel = add_axes(figure, left + column * (width + gap), bottom, width, tall, xscale="log", yscale="log")
+                panel.contourf(h, delta, np.ma.masked_invalid(error), levels=levels, cmap=colors, norm=norm)
+                _paths(panel, h, delta)
+                axes.set_log_limits(panel, (h[0], h[-1]), (delta[0], delta[-1]), (width, tall))
+                panel.minorticks_off()      # they would take half of the drawing time
+                panel.tick_params(which="both", direction="out", labelleft=column == 0,
+                                  labelbottom=row == len(targets) - 1)
+                panel.set_title(titles[scheme, target], fontsize=9, pad=4)
+                if row == 0:
+                    panel.annotate(textwrap.fill(labels[scheme], max(14, int(width / 0.078))), (0.5, 1),
+                                   xycoords="axes fraction", xytext=(0, 72 * spaces[0]), textcoords="offset points",
+                                   ha="center", va="bottom", fontsize=11.5, linespacing=1.0)
+                if row == len(targets) - 1:
+                    panel.set_xlabel("$h$")
+                if column == 0:
+                    panel.set_ylabel(r"$\delta$")
+                    panel.annotate(TARGETS[target], (0, 1), xycoords="axes fraction", xytext=(0, 72 * spaces[row] - 17),
+                                   textcoords="offset points", va="bottom", fontsize=11.5)
+        bar = figure.colorbar(ScalarMappable(norm, colors), cax=add_axes(
+            figure, left + len(schemes) * (width + gap), foot, 0.16, height - spaces[0]), spacing="proportional")
+        ticks = [level for level in levels if abs(math.log10(level) - round(math.log10(level))) < 1e-6] or levels[::3]
+        bar.set_ticks(ticks, labels=[axes.tick_text(tick, [1e-9]) for tick in ticks])
+        bar.minorticks_off()
+        bar.ax.set_yscale("log")
+        bar.set_label("max-norm error at $T$")
+        figure.legend([Line2D([], [], color="black", linestyle=dash, linewidth=1.2) for *_, dash in PATHS],
+                      [name for name, *_ in PATHS], loc="lower left", ncol=len(PATHS), columnspacing=2.0,
+                      bbox_to_anchor=(left / WIDTH, 0.12 / total), **LEGEND)
+        return figure
+
+
+def _levels(errors):
+    """Contour levels, eight a decade at most and about twenty in all, a decade among them."""
+    values = np.concatenate([error[np.isfinite(error)] for error in errors])
+    low, high = (math.log10(values.min()), math.log10(values.max())) if len(values) else (-1.0, 0.0)
+    per_decade = max(1, min(8, int(20 / max(high - low, 0.5))))
+    first, last = math.floor(low * per_decade), math.ceil(high * per_decade)
+    return 10.0 ** (np.arange(first, max(last, first + 1) + 1) / per_decade)
+
+
+def _paths(panel, h, delta):
+    panel.plot(*(grid.ravel() for grid in np.meshgrid(h, delta)), linestyle="none", marker=".", markersize=1.2,
+               color="white", alpha=0.7)
+    x = np.geomspace(h[0], h[-1], 60)
+    for _, horizon, dash in PATHS:
+        y = horizon(x)
+        inside = (y >= delta[0]) & (y <= delta[-1])
+        if inside.any():
+            line, = panel.plot(x[inside], y[inside], color="black", linestyle=dash, linewidth=1.2)
+            line.set_path_effects([Stroke(linewidth=2.6, foreground="white", alpha=0.75), Normal()])
+
+
+def _fit_text(study, scheme, target):
+    """Exponents of the fitted surface A h^p + B delta^q, as the result file has them."""
+    for finding in study.findings:
+        if finding.test == "surface" and finding.subject == names.full_name(scheme) and _target(finding) == target:
+            lines = [rf"${name}$ = {names.order(finding.fit[name])} "
+                     f"[{names.order(finding.fit.get(f'{name}_low', math.nan))}, "
+                     f"{names.order(finding.fit.get(f'{name}_high', math.nan))}]"
+                     for name in ("p", "q") if math.isfinite(finding.fit.get(name, math.nan))]
+            return "\n".join(lines)
+    return ""
+
+
+def _fit_caption(study):
+    """What p and q belong to, and how much better the law describes the errors than a plain sum; "" without a fit."""
+    fits = [finding.fit for finding in study.findings if finding.test == "surface" and finding.fit]
+    if not fits:
+        return ""
+    said = ("p and q, with 95 % intervals: orders of error = (a^m + b^m)^(1/m), a = A h^p exp(D h/h_max), "
+            "b = B δ^q exp(F δ/δ_max); the sharpness m says how the two terms join, from their sum (m = 1) to the "
+            "larger one (m → ∞). ")
+    gains = [fit["bic_sum"] - fit["bic"] for fit in fits if math.isfinite(fit.get("bic_sum", math.nan))
+             and math.isfinite(fit.get("bic", math.nan))]
+    if gains:
+        least, most = f"{min(gains):.0f}", f"{max(gains):.0f}"
+        more = least if least == most else f"{least} to {most}"
+        said += f"The Bayesian information criterion of the plain sum a + b is larger by {more}. ".replace("-", "−")
+    return said
+
+
+def _target(finding):
+    return "nonlocal" if "nonlocal" in finding.check else "local"
+
+
+def cuts_figure(series, planes):
+    with typography():
+        schemes = list(dict.fromkeys(scheme for scheme, _ in planes))
+        labels = names.scheme_names(schemes)
+        left, width, tall, gap, above = 0.62, 2.42, 2.9, 0.12, 0.38
+        foot = 0.65 + LINE * 1.5 * math.ceil((len(schemes) + 2) / 2)
+        figure = blank(above + tall + foot)
+        orders = {target: add_axes(figure, left + i * (width + gap), foot, width, tall, xscale="log")
+                  for i, target in enumerate(TARGETS)}
+        errors = add_axes(figure, WIDTH - 0.1 - width, foot, width, tall, xscale="log", yscale="log")
+        styles = {}
+        for i, scheme in enumerate(schemes):
+            filled, color = scheme.divergence != "nonlocal", COLORS[i % len(COLORS)]
+            styles[scheme] = dict(color=color, marker=MARKERS[i % len(MARKERS)], linewidth=1.1,
+                                  markersize=3.6 if filled else 6.5, markerfacecolor=color if filled else "none")
+        for (scheme, target), (h, delta, error) in planes.items():
+            dash = DASHES[1] if target == "local" else "solid"
+            errors.plot(delta, error[:, 0], linestyle=dash, **styles[scheme])
+            fits = sorted((one.cases.delta[0], one.observed_order, one.observed_low, one.observed_high)
+                          for one in series if (one.scheme, one.source) == (scheme, target) and len(one.cases))
+            if fits:
+                x, order, low, high = np.array(fits).T
+                # Schemes beside each other, for the bars of schemes that agree would hide one another.
+                x = x * 1.07 ** (schemes.index(scheme) - (len(schemes) - 1) / 2)
+                orders[target].errorbar(x, order, yerr=np.nan_to_num(np.clip([order - low, high - order], 0, None)),
+                                elinewidth=0.8, linestyle=dash, **styles[scheme])
+        limits = axes.padded(np.concatenate([delta for _, delta, _ in planes.values()]))
+        bounds, (lines,) = axes.error_bounds([([(delta, error[:, 0], None) for _, delta, error in planes.values()],
+                                               [1.0])], (width, tall))
+        for panel in (*orders.values(), errors):
+            axes.set_log_limits(panel, limits, bounds if panel is errors else (0.1, 1.0), (width, tall))
+            panel.tick_params(which="both", top=True, right=True)
+            panel.set_xlabel(r"$\delta$")
+        for i, (target, panel) in enumerate(orders.items()):
+            panel.set(yscale="linear", ylim=(-0.6, 2.6))
+            panel.axhline(1.0, color=GRAY, linewidth=0.8)
+            panel.tick_params(labelleft=i == 0)
+            panel.set_title(TARGETS[target], fontsize=10.5, pad=5)
+        axes.draw_references(errors, lines, (width, tall), GRAY)
+        orders["nonlocal"].set_ylabel("order in $h$ at this horizon")
+        errors.set_ylabel("max-norm error at the finest $h$")
+        keys = [Line2D([], [], **styles[scheme]) for scheme in schemes]
+        keys += [Line2D([], [], color=GRAY, linestyle="solid"), Line2D([], [], color=GRAY, linestyle=DASHES[1])]
+        figure.legend(keys, [*(labels[scheme] for scheme in schemes), *TARGETS.values()], loc="lower left", ncol=2,
+                      columnspacing=2.5, bbox_to_anchor=(left / WIDTH, 0.12 / figure.get_figheight()), **LEGEND)
+        return figure

@@ -1,0 +1,1 @@
+"""Stability maps: where steps are stable, as maps, as curves and as a table."""

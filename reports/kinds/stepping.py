@@ -1,0 +1,140 @@
+"""Studies that step in several ways: error against run time, explicit beside implicit, and what each way came to."""
+
+from html import escape
+import math
+
+from matplotlib.lines import Line2D
+import numpy as np
+
+from drawing import axes
+from drawing.look import COLORS, DASHES, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from writing import markup
+from reading import names
+
+COLUMNS = ("scheme", "path", "steps", "came to be", "as expected", "<var>N</var>", "max-norm error", "run time (s)",
+           "steps taken", "longest / bound", "beyond it from", "given up at")
+
+
+def drawings(study):
+    panels = {}
+    for series in study.series:
+        panels.setdefault((series.path, series.scheme), []).append(series)
+    return [Drawing(
+        study.name, study.title, run_time_figure(panels),
+        f"Log-log plots of the max-norm error against run time for {study.title}, a curve per integrator and rule of "
+        "steps. Values: table below.",
+        "Error against the run time of the whole time loop, from coarse to fine N; bars from the fastest to the slowest "
+        "repeat. Lower left is better. Crosses at the upper edge: runs that blew up, at the time they took to do so.")]
+
+
+def run_time_figure(panels):
+    """A row per path, a column per scheme, a curve per way to step."""
+    with typography():
+        every = [series for group in panels.values() for series in group]
+        paths = list(dict.fromkeys(path for path, _ in panels))
+        schemes = list(dict.fromkeys(scheme for _, scheme in panels))
+        ways = list(dict.fromkeys(series.stepping for series in every))
+        labels = names.scheme_names(schemes)
+        left, right, gap, above, between = 0.85, 0.1, 0.16, 0.5, 0.3
+        foot = 0.75 + math.ceil(len(ways) / 2) * LINE * 1.6
+        width = min(4.0, (WIDTH - left - right - (len(schemes) - 1) * gap) / len(schemes))
+        tall = 2.4
+        figure = blank(above + len(paths) * tall + (len(paths) - 1) * between + foot)
+        drawn = [_drawable(series) for series in every]
+        times = axes.padded(np.concatenate([series.cases.seconds[series.cases.seconds > 0] for series in every]))
+        errors = axes.padded(np.concatenate([y[np.isfinite(y)] for _, y in drawn]))
+        # Room at the upper edge for the runs that blew up.
+        errors = errors[0], errors[1] * (errors[1] / errors[0]) ** 0.1
+        for i, path in enumerate(paths):
+            bottom = figure.get_figheight() - above - (i + 1) * tall - i * between
+            for k, scheme in enumerate(schemes):
+                if (path, scheme) not in panels:
+                    continue
+                panel = add_axes(figure, left + k * (width + gap), bottom, width, tall, xscale="log", yscale="log")
+                for series in panels[path, scheme]:
+                    _draw(panel, series, ways.index(series.stepping))
+                axes.set_log_limits(panel, times, errors, (width, tall))
+                panel.minorticks_off()      # they would take half of the drawing time
+                last = i == len(paths) - 1
+                panel.tick_params(top=True, right=True, labelleft=k == 0, labelbottom=last)
+                if i == 0:
+                    panel.set_title(labels[scheme], fontsize=11, pad=20)
+                panel.annotate(names.path_math(path), (0, 1), xycoords="axes fraction", xytext=(0, 4),
+                               textcoords="offset points", va="bottom", fontsize=10.5)
+                if last:
+                    panel.set_xlabel("run time (s)")
+                if k == 0:
+                    panel.set_ylabel("max-norm error at $T$")
+        keys = [Line2D([], [], **_style(i)) for i in range(len(ways))]
+        figure.legend(keys, [names.literal(_said(way, every)) for way in ways], loc="lower left", ncol=2, columnspacing=2.0,
+                      bbox_to_anchor=(left / WIDTH, 0.1 / figure.get_figheight()), **LEGEND)
+        return figure
+
+
+def _said(way, every):
+    """A way to step, and whether every run of it blew up."""
+    verdicts = {series.verdict for series in every if series.stepping == way}
+    finite = any(np.isfinite(series.cases.error_linf).any() for series in every if series.stepping == way)
+    return f"{way}: blows up" if verdicts == {"unstable"} and not finite else way
+
+
+def _style(i):
+    color = COLORS[i % len(COLORS)]
+    return dict(color=color, marker=MARKERS[i % len(MARKERS)], linestyle=DASHES[i % len(DASHES)], markersize=4.6,
+                markerfacecolor=color if i % 2 == 0 else "none")
+
+
+def _drawable(series):
+    x, y = series.cases.seconds, series.cases.error_linf
+    good = np.isfinite(x) & np.isfinite(y) & (x > 0) & (y > 0)
+    return np.where(good, x, np.nan), np.where(good, y, np.nan)
+
+
+def _draw(panel, series, i):
+    x, y = _drawable(series)
+    cases = series.cases
+    if np.isfinite(y).any():
+        spread = np.nan_to_num(np.clip([x - cases.seconds_low, cases.seconds_high - x], 0, None))
+        panel.errorbar(x, y, xerr=spread, elinewidth=0.9, capsize=2, capthick=0.9, ecolor=_style(i)["color"], **_style(i))
+    lost = ~np.isfinite(cases.error_linf) & (cases.seconds > 0)
+    panel.plot(cases.seconds[lost], np.full(lost.sum(), 0.975), linestyle="none", marker="x", markersize=6,
+               color=_style(i)["color"], transform=panel.get_xaxis_transform())
+
+
+def table(study):
+    """A row per series: what its finest run came to."""
+    labels = names.scheme_names(series.scheme for series in study.series)
+    return markup.table(COLUMNS, "".join(_row(series, labels[series.scheme]) for series in study.series),
+                        f"{study.title}: what each way to step came to")
+
+
+def _row(series, label):
+    cases = series.cases
+    if not len(cases):
+        return ""
+    beyond = np.flatnonzero(cases.bound_first_step > 0)
+    lost = np.flatnonzero(np.isfinite(cases.last_time))
+    bound = f"{np.max(cases.bound_largest):.3g}" if np.max(cases.bound_largest) > 0 else "–"
+    where = "–"
+    if len(beyond):
+        i = beyond[-1]
+        where = (f"step {cases.bound_first_step[i]:.0f}, <var>t</var> = {cases.bound_first_time[i]:.3g}, "
+                 f"<var>x</var> = {cases.bound_first_place[i]:.4g}")
+    given_up = "–"
+    if len(lost):
+        i = lost[-1]
+        given_up = (f"step {cases.last_step[i]:.0f} of <var>N</var> = {cases.N[i]}, <var>t</var> = "
+                    f"{cases.last_time[i]:.3g}, <var>x</var> = {cases.last_place[i]:.4g}")
+    number = '<td class="number">{}</td>'.format
+    return (f'<tr{markup.departs(series)}><th scope="row">{escape(label)}</th><td>{escape(series.path)}</td>'
+            f'<td class="said">{escape(series.stepping)}</td><td>{_came_to_be(series)}</td>'
+            f"<td>{markup.expected(series)}</td>{number(cases.N[-1])}{number(markup.error(cases.error_linf[-1]))}"
+            f"{number(markup.seconds(cases.seconds[-1]))}{number(markup.count(cases.steps[-1]))}{number(bound)}"
+            f'<td class="said">{where}</td><td class="said">{given_up}</td></tr>\n')
+
+
+def _came_to_be(series):
+    """The verdict; where nothing but stability was asked for, that it is stable."""
+    if series.expected == "stable" and series.as_expected:
+        return '<span class="badge good">stable</span>'
+    return markup.badge(series, series.expected == "unstable")

@@ -1,0 +1,1 @@
+"""What the program stored, read into plain records: result files, benches, the ledger of statements, names."""

@@ -1,0 +1,202 @@
+"""The ledger: every statement of theory with what was measured of it, in the order of the paper.
+
+Results only: nothing here judges. Verdicts, intervals and reasons are those of the result files.
+"""
+
+from dataclasses import dataclass
+import math
+import re
+
+import numpy as np
+
+from reading import names
+from reading.results import CONVERGENCE
+
+# The statements of the paper in its order.
+PAPER = ("(2.3)", "Remark 2.1", "Remark 2.2", "Lemma 2.3", "Lemma 2.4", "Lemma 2.5", "Theorem 2.6", "Theorem 2.7",
+         "Theorem 2.8", "Lemma 3.1", "(3.4)", "(3.5)", "Lemma 3.2", "Lemma 3.3", "Lemma 3.4", "Theorem 3.5",
+         "Theorem 3.6", "Theorem 3.7")
+# Kinds of study that examine the checks and the verdicts themselves.
+OF_MEASUREMENT = ("controls", "corpus")
+STIFF = "Stiff scenes"
+OF_OPERATORS = ("consistency", "identities", "stability")
+# From best to worst, where each is as expected.
+_SEVERITY = ("holds", "confirmed", "pre-asymptotic", "floor", "inconclusive")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A finding, or a series of a convergence study, as one line of the ledger."""
+    study: object
+    statement: str
+    claim: str
+    subject: str
+    check: str
+    measured: str       # "order 0.97 [0.95, 1.01]", or the value nearest to its bound
+    order: float        # NaN: no order was asked for
+    margin: float       # distance of the worst value to its bound, relative to the bound; negative beyond; NaN: none
+    verdict: str
+    expected: str
+    as_expected: bool
+    control: bool       # must fail, because the statement does not apply
+    refuted: bool       # the statement, as printed, is not true here, and the study expects that
+    unsharp: bool       # a bound that it states is not attained here, and the study expects that
+    reason: str
+    remark: str
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A statement of the paper with every entry about it."""
+    name: str
+    entries: tuple
+
+    @property
+    def claims(self):
+        return tuple(dict.fromkeys(entry.claim for entry in self.entries))
+
+    @property
+    def tested(self):
+        """The entries in which the statement has to hold."""
+        return tuple(entry for entry in self.entries if not entry.control and not entry.unsharp)
+
+    @property
+    def controls(self):
+        return tuple(entry for entry in self.entries if entry.control)
+
+    @property
+    def refuted(self):
+        """The entries that show that the statement, as printed, is not true."""
+        return tuple(entry for entry in self.entries if entry.refuted)
+
+    @property
+    def unsharp(self):
+        return tuple(entry for entry in self.entries if entry.unsharp)
+
+    @property
+    def departing(self):
+        return tuple(entry for entry in self.entries if not entry.as_expected)
+
+    @property
+    def worst(self):
+        """The entry that decides the verdict: one that departs, else the least certain; None without entries."""
+        return max(self.tested or self.entries, key=_badness, default=None)
+
+
+def ledger(studies):
+    """(statements of the paper in its order, further statements in order of appearance).
+
+    Findings on wrong schemes and on synthetic series speak of the measurement, not of theory.
+    """
+    found = {}
+    for study in studies:
+        if study.kind not in OF_MEASUREMENT:
+            for entry, source in zip(entries(study), study.judged):
+                # Values that theory does not bound are for the record.
+                if study.kind == CONVERGENCE or source.promised != "inconclusive":
+                    found.setdefault(entry.statement, []).append(entry)
+    statements = [Statement(name, tuple(group)) for name, group in found.items()]
+    of_paper = [statement for statement in statements if _base(statement.name) in PAPER]
+    of_paper.sort(key=lambda statement: (PAPER.index(_base(statement.name)), statement.name))
+    return of_paper, [statement for statement in statements if statement not in of_paper]
+
+
+def entries(study):
+    """What a study says, a line for each thing that the gate judges."""
+    if study.kind == CONVERGENCE:
+        return [_of_series(study, series) for series in study.series]
+    return [of_finding(study, finding) for finding in study.findings]
+
+
+def of_finding(study, finding):
+    i, margin = closest(finding.points)
+    # A study of the paper's statements that expects something else than a statement promises disputes it: its truth, or,
+    # where errors should grow with the bound, that the bound is attained.
+    disputed = study.kind in OF_OPERATORS and finding.expected != finding.promised
+    unsharp = finding.promised == "diverges"
+    return Entry(study, finding.statement, finding.claim, finding.subject, finding.check, measured(finding),
+                 finding.observed_order, margin if i is not None and finding.test == "bounds" else math.nan,
+                 finding.verdict, " or ".join((finding.expected, *finding.also_expected)), finding.as_expected,
+                 finding.control and not disputed, disputed and not unsharp, disputed and unsharp, finding.reason,
+                 finding.remark)
+
+
+def _of_series(study, series):
+    statement, _, limit = series.theory_statement.partition(": ")
+    claim = (f"order {series.theory_order:g} in {series.theory_variable}" if series.theory_order else
+             f"the error does not vanish: {limit}")
+    source = f"{series.source} source, {study.scene.name or 'scene of ' + study.name}"
+    check = ", ".join(filter(None, (series.path, series.stepping, source)))
+    order, control = series.observed_order, series.expected not in ("confirmed", "pre-asymptotic")
+    if series.expected in ("stable", "unstable"):
+        # No order is asked for: nothing of the theorems is tested.
+        statement, claim, order, control = STIFF, "the solution stays bounded", math.nan, series.expected == "unstable"
+    return Entry(study, statement, claim, names.full_name(series.scheme), check, order_text(series), order, math.nan,
+                 series.verdict, series.expected, series.as_expected, control, False, False, series.reason, "")
+
+
+def measured(finding):
+    """What was observed, in a few words."""
+    if math.isfinite(finding.observed_order):
+        return order_text(finding)
+    i, _ = closest(finding.points)
+    if i is None or finding.test != "bounds":
+        return "–"
+    points = finding.points
+    columns = points.value, points.lower, points.upper
+    value, lower, upper = (f"{column[i]:.6g}".replace("-", "−") for column in columns)
+    if math.isinf(points.lower[i]):
+        if value == upper != "0":
+            value, upper = (_beside(float(f"{points.upper[i]:.6g}"), one) for one in (points.value[i], points.upper[i]))
+        return f"{value} ≤ {upper}" if points.value[i] <= points.upper[i] else f"{value} > {upper}"
+    if math.isinf(points.upper[i]):
+        return f"{value} ≥ {lower}" if points.value[i] >= points.lower[i] else f"{value} < {lower}"
+    if lower == upper and points.lower[i] < points.upper[i]:
+        middle, half = (points.lower[i] + points.upper[i]) / 2, (points.upper[i] - points.lower[i]) / 2
+        deviation = abs(points.value[i] - middle)
+        return f"|value − {middle:g}| = {deviation:.2g} {'≤' if deviation <= half else '>'} {half:.2g}"
+    inside = points.lower[i] <= points.value[i] <= points.upper[i]
+    return f"{value} {'in' if inside else 'outside'} [{lower}, {upper}]"
+
+
+def _beside(round_number, value):
+    """A value that differs from a round number by next to nothing: "1 + 2.2e−16"."""
+    if value == round_number or not math.isfinite(value):
+        return f"{round_number:.6g}"
+    sign = "+" if value > round_number else "−"
+    return f"{round_number:.6g} {sign} {abs(value - round_number):.2g}".replace("e-", "e−")
+
+
+def order_text(result):
+    if not math.isfinite(result.observed_order):
+        return "no order"
+    return (f"order {names.order(result.observed_order)} "
+            f"[{names.order(result.observed_low)}, {names.order(result.observed_high)}]")
+
+
+def closest(points):
+    """(index, margin) of the value nearest to its bound or farthest beyond; (None, NaN) where nothing is bounded.
+
+    The margin is the distance to the bound relative to the larger bound, negative beyond it.
+    """
+    if not len(points):
+        return None, math.nan
+    with np.errstate(invalid="ignore"):
+        bounds = np.abs(np.where(np.isfinite([points.lower, points.upper]), [points.lower, points.upper], 0.0))
+        scale = np.where(bounds.max(axis=0) > 0, bounds.max(axis=0), 1.0)
+        margin = np.minimum(points.upper - points.value, points.value - points.lower) / scale
+    margin = np.where(np.isnan(margin), -np.inf, margin)    # what is not a number keeps no bound
+    i = int(np.argmin(margin))
+    return (None, math.nan) if margin[i] == np.inf else (i, float(margin[i]))
+
+
+def _base(statement):
+    found = re.match(r"(?:Lemma|Remark|Theorem) \d\.\d+|\(\d\.\d+\)", statement)
+    return found.group() if found else statement
+
+
+def _badness(entry):
+    severity = _SEVERITY.index(entry.verdict) if entry.verdict in _SEVERITY else len(_SEVERITY)
+    margin = entry.margin if not math.isnan(entry.margin) else math.inf
+    order = entry.order if math.isfinite(entry.order) else math.inf
+    return not entry.as_expected, entry.refuted, severity, -margin, -order

@@ -1,0 +1,1 @@
+"""What every page is written with: markup, badges, tables of the ledger."""

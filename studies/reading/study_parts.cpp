@@ -251,12 +251,12 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
     table.place(*table.find("name"))
         .fail(fmt::format("name = {}; it must be one of {}", in_quotes(name), fmt::join(known, ", ")));
   }
-  const Table scheme_table = table.sub_table("scheme");
-  scheme_table.allow(scheme_keys);
-  SchemeChoice scheme = read_scheme(scheme_table, scene);
+  const Table inner = table.sub_table("scheme");
+  inner.allow(scheme_keys);
+  SchemeChoice scheme = read_scheme(inner, scene);
   if (scheme.nonlocal_divergence || (control->model != nullptr && control->model != scheme.model)) {
     const ModelCard& right = control->model != nullptr ? *control->model : *model_cards().front();
-    scheme_table.place().fail(fmt::format(
+    inner.place().fail(fmt::format(
         "{} is a mistake in {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}", name,
         control->model != nullptr ? right.name : "any model", right.number));
   }

@@ -64,7 +64,8 @@ Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene
   return {scheme, scheme.model->viscous ? scene->max_relative_velocity() : 0.0, scene, arrangement};
 }
 
-Subject mistaken(Subject subject, std::string_view control) {
+std::optional<Subject> mistaken(Subject subject, std::string_view control) {
+  if (control.empty()) return std::nullopt;
   subject.scheme.control = find_control(control);
   subject.scheme.nonlocal_divergence = false;
   return subject;

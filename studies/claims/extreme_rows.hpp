@@ -59,8 +59,8 @@ std::shared_ptr<const Scene> scene_named(std::string_view name);
 /// A scheme on a scene, with the viscosity bound of the scene if its model is viscous.
 Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene>& scene,
                    Arrangement arrangement = Arrangement::uniform);
-/// The same with a control's mistake, made with the local divergence.
-Subject mistaken(Subject subject, std::string_view control);
+/// The same with a control's mistake, made with the local divergence; nothing where a card names no such mistake.
+std::optional<Subject> mistaken(Subject subject, std::string_view control);
 
 /// The schemes, each once, where particles stand still and the divergence is of no matter.
 std::vector<SchemeChoice> standing_schemes(const Extremes& extremes);

@@ -139,7 +139,7 @@ void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme) {
   }
   const Subject moving = subject_on(scheme, scene_named("lee-du-2019"));
   add(moving, moving.scene->T(), "scene lee-du-2019");
-  add_control({mistaken(moving, "no divergence term"), moving.scene->T(), 3.5, {}}, "scene lee-du-2019",
+  add_control({*mistaken(moving, "no divergence term"), moving.scene->T(), 3.5, {}}, "scene lee-du-2019",
               "without b' u there is more mass where the volumes grow");
 }
 

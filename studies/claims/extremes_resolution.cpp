@@ -119,9 +119,10 @@ void add_many_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int6
                        "delta = 1.45h, CFL 1/4", "max |u - exact|", Test::bounds);
   };
   rows.add(steps_of(subject), [=](Finding& row) { take_ten_steps(row, subject, most); });
-  const Subject wrong = mistaken(subject, scheme.model->mistakes.inconsistent);
-  rows.add_control(steps_of(wrong), "a scheme that is not consistent",
-                   [=](Finding& row) { take_ten_steps(row, wrong, fewer); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(steps_of(*wrong), "a scheme that is not consistent",
+                     [=](Finding& row) { take_ten_steps(row, *wrong, fewer); });
+  }
 }
 
 // ------------------------------------------------------------------------------------------------------------- delta/h
@@ -222,9 +223,10 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
                        check + ", first moment", "max |sum - 1|", Test::bounds);
   };
   rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, sweep)); });
-  const Subject wrong = mistaken(subject, scheme.model->mistakes.inconsistent);
-  rows.add_control(moment(wrong), "a part of the kernel is missing",
-                   [=](Finding& row) { adopt(row, first_moment_is_one(wrong, sweep)); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(moment(*wrong), "a part of the kernel is missing",
+                     [=](Finding& row) { adopt(row, first_moment_is_one(*wrong, sweep)); });
+  }
 
   const auto norm = [&](double cfl) {
     return subject.finding(horizons, "at the largest, c constant: a step at CFL 1 has the max norm 1",

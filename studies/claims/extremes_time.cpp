@@ -213,12 +213,14 @@ void add_many_steps(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t 
   const std::int64_t fewer = std::min<std::int64_t>(most, 1000);
   const std::string_view mistake = scheme.model->mistakes.not_monotone;
   const auto add = [&](const std::string& claim, const std::string& quantity, const std::string& followed_as,
-                       Followed followed, const Subject& right, const Subject& wrong, const std::string& why) {
+                       Followed followed, const Subject& right, const std::optional<Subject>& wrong,
+                       const std::string& why) {
     rows.add(right.finding(statement, claim, "N = 16, " + followed_as, quantity, Test::bounds),
              [=](Finding& row) { step_often(row, right, followed, most); });
-    rows.add_control(wrong.finding(statement, claim, fmt::format("N = 16, {}, {} steps", followed_as, fewer), quantity,
-                                   Test::bounds),
-                     why, [=](Finding& row) { step_often(row, wrong, followed, fewer); });
+    if (!wrong) return;
+    rows.add_control(wrong->finding(statement, claim, fmt::format("N = 16, {}, {} steps", followed_as, fewer), quantity,
+                                    Test::bounds),
+                     why, [=](Finding& row) { step_often(row, *wrong, followed, fewer); });
   };
   const Subject steady = subject_on(scheme, scene), uneven = subject_on(scheme, varying);
   add("c constant: constants drift by round-off alone", "max |u - 1|", "u = 1", Followed::constant, steady, uneven,

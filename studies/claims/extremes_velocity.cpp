@@ -159,7 +159,7 @@ void add_lagrangian(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement a
                            "scene lagrangian, to O(max(h, delta))", "max |rate + f - du/dt|", Test::bounds);
   };
   rows.add(consistent(with_nonlocal), [=](Finding& row) { leave_of_equation(row, with_nonlocal, false); });
-  const Subject without = mistaken(with_local, "no divergence term");
+  const Subject without = *mistaken(with_local, "no divergence term");
   rows.add_control(consistent(without), "b' u is missing",
                    [=](Finding& row) { leave_of_equation(row, without, false); });
 
@@ -223,8 +223,10 @@ void add_zero_of_velocity(ExtremeRows& rows, const SchemeChoice& scheme) {
                          Test::bounds);
     };
     rows.add(named(subject), [=](Finding& row) { rate_at_zero(row, subject, subject); });
-    const Subject wrong = mistaken(subject, scheme.model->mistakes.not_monotone);
-    rows.add_control(named(wrong), "a scheme with a mistake", [=](Finding& row) { rate_at_zero(row, wrong, subject); });
+    if (const auto wrong = mistaken(subject, scheme.model->mistakes.not_monotone)) {
+      rows.add_control(named(*wrong), "a scheme with a mistake",
+                       [=](Finding& row) { rate_at_zero(row, *wrong, subject); });
+    }
     if (!scheme.model->upwind) continue;
     const auto side = [&](const Subject& one, const std::string& where) {
       return one.finding(zero, fmt::format("{} looks right where c_hat is zero", scheme.model->name), where,

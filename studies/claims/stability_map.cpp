@@ -54,7 +54,7 @@ struct Frozen {
 
   Frozen(const Subject& subject, const Constants& constants, const std::vector<double>& x, double delta) {
     PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
-    R = sparse_rates(subject, placed);
+    R = sparse_rates(placed);
     lemma = gaps(x, subject.scene->period()).smallest / constants.lemma_speed;
     const auto decay = [&] {
       if (subject.scheme.control == nullptr) return placed.scheme().rows()->strongest_decay();

@@ -8,7 +8,7 @@
 
 namespace acstudy {
 
-SparseMatrix sparse_rates(const Subject& subject, PlacedScheme& placed) {
+SparseMatrix sparse_rates(PlacedScheme& placed) {
   const auto n = static_cast<int>(placed.size());
   std::vector<Eigen::Triplet<double>> entries;
   if (const SchemeRows* const known = placed.scheme().rows()) {

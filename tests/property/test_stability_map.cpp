@@ -63,7 +63,7 @@ TEST_CASE("the step operator is what integrate does to unit vectors", "[stabilit
     const Subject one = subject(model, spline, Arrangement::moved, test::named_scene("lee-du-2019"), true);
     const std::vector<double> x = one.positions(20).front();
     PlacedScheme placed(one.scheme, *one.scene, one.mu, x, 0.9);
-    const SparseMatrix R = sparse_rates(one, placed);
+    const SparseMatrix R = sparse_rates(placed);
     for (const Integrator& integrator : integrators) {
       for (const double dt : {0.01, 0.4}) {
         const Eigen::MatrixXd S = step_operator(integrator, R, dt);
@@ -86,14 +86,14 @@ TEST_CASE("a control's rates are found by probing", "[stability-map]") {
   one.scheme.control = find_control("SPH sum");
   PlacedScheme placed(one.scheme, *one.scene, one.mu, one.positions(20).front(), 0.13);
   const auto u = test::irregular_values(20, 4);
-  const Eigen::VectorXd product = sparse_rates(one, placed) * Eigen::Map<const Eigen::VectorXd>(u.data(), 20);
+  const Eigen::VectorXd product = sparse_rates(placed) * Eigen::Map<const Eigen::VectorXd>(u.data(), 20);
   CHECK(test::relative_gap({product.begin(), product.end()}, placed.rate(u)) < 1e-12);
 }
 
 TEST_CASE("the spectral radius by the stability function is that of the step", "[stability-map]") {
   const Subject one = subject(2, steep, Arrangement::jittered, test::named_scene("standing-variable-velocity"));
   PlacedScheme placed(one.scheme, *one.scene, one.mu, one.positions(24).front(), 0.7);
-  const SparseMatrix R = sparse_rates(one, placed);
+  const SparseMatrix R = sparse_rates(placed);
   const Eigen::VectorXcd eigenvalues = Eigen::MatrixXd(R).eigenvalues();
   for (const Integrator& integrator : integrators) {
     for (const double dt : {0.02, 0.3, 2.0}) {
@@ -118,7 +118,7 @@ TEST_CASE("eigenvalues on uniform standing particles are the symbols of the sum"
     }
     symbols[m] = symbol;
   }
-  const Eigen::VectorXcd eigenvalues = Eigen::MatrixXd(sparse_rates(one, placed)).eigenvalues();
+  const Eigen::VectorXcd eigenvalues = Eigen::MatrixXd(sparse_rates(placed)).eigenvalues();
   for (const std::complex<double> symbol : symbols) {
     CHECK((eigenvalues.array() - symbol).abs().minCoeff() < 1e-10);
   }

@@ -107,9 +107,10 @@ void add_nearest(ExtremeRows& rows, const SchemeChoice& scheme) {
     return finding;
   };
   rows.add(moment_of(subject), [=](Finding& row) { at_each(row, subject, first_moment); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
-  rows.add_control(moment_of(wrong), "a part of the kernel is missing",
-                   [=](Finding& row) { at_each(row, wrong, first_moment); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(moment_of(*wrong), "a part of the kernel is missing",
+                     [=](Finding& row) { at_each(row, *wrong, first_moment); });
+  }
 
   const auto norm_at = [&](double cfl) {
     Finding finding = subject.finding(coincident, "a gap of one ulp, c constant: a step at CFL 1 has the max norm 1",

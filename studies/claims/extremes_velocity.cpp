@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "studies/claims/extreme_rows.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/claims/stability.hpp"
 
 namespace acstudy {
@@ -48,12 +47,13 @@ void add_no_velocity(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement 
   const Subject moved = subject_on(scheme, scene_with("1e-12"), arrangement);
   rows.add_control(named(moved, "c = 1e-12"), "a velocity, however small", [=](Finding& row) { rest(row, moved); });
 
-  if (scheme.model == 1) return;
+  if (!scheme.model->viscous) return;
   Subject viscous = still;
   viscous.mu = 1.0;
   const auto diffusion = [&](double cfl) {
-    return viscous.finding("c = 0", "with mu = 1 Model II is a diffusion: a step at CFL 1 has the max norm 1",
-                           fmt::format("CFL {:g}", cfl), "max norm of I + dt R", Test::bounds);
+    return viscous.finding(
+        "c = 0", fmt::format("with mu = 1 {} is a diffusion: a step at CFL 1 has the max norm 1", scheme.model->name),
+        fmt::format("CFL {:g}", cfl), "max norm of I + dt R", Test::bounds);
   };
   const auto step = [=](Finding& row, double cfl) {
     row.points = step_is_bounded(viscous, {{N}, ratios, {}}, StepCondition::corrected, cfl).points;
@@ -73,7 +73,7 @@ void rate_of_constants(Finding& row, const Subject& subject) {
     const std::vector<double> at(x.begin(), x.end());
     Point worst{.value = 0.0};
     for (std::size_t j = 0; j < rate.size(); ++j) {
-      const double relative = std::abs(rate[j]) / printed_rate(subject, at, one, placed.particles().delta, j).size;
+      const double relative = std::abs(rate[j]) / subject.printed_rate(at, one, placed.particles().delta, j).size;
       if (worse(relative, worst.value)) worst.value = relative;
     }
     worst.upper = row_round_off(placed.particles());
@@ -119,8 +119,7 @@ void leave_of_equation(Finding& row, const Subject& subject, bool to_round_off) 
     const auto source = make_source(subject.scheme, scene, subject.mu, false, placed.particles().delta);
     const auto x = placed.particles().x.values();
     const double widest = gaps({x.begin(), x.end()}, scene.period()).largest;
-    // B is the average of b' over half of the horizon, G[b] over all of it.
-    const double part = subject.scheme.model == 1 ? 0.5 : 0.25;
+    const double part = subject.scheme.model->divergence_part;
     const double divergence = part * std::max(widest, placed.particles().delta) * fields.b_2 * fields.u;
     // u_t, c u_x and b u_x, c' u and b' u, each with a few roundings; c has at most the norm of b.
     const double round_off = 16.0 * epsilon * (2.0 * fields.u_1 + fields.b_1 * fields.u);
@@ -160,7 +159,7 @@ void add_lagrangian(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement a
                            "scene lagrangian, to O(max(h, delta))", "max |rate + f - du/dt|", Test::bounds);
   };
   rows.add(consistent(with_nonlocal), [=](Finding& row) { leave_of_equation(row, with_nonlocal, false); });
-  const Subject without = mistaken(with_local, "no divergence term", "no divergence term");
+  const Subject without = *mistaken(with_local, "no divergence term");
   rows.add_control(consistent(without), "b' u is missing",
                    [=](Finding& row) { leave_of_equation(row, without, false); });
 
@@ -189,7 +188,7 @@ void rate_at_zero(Finding& row, const Subject& subject, const Subject& as) {
   at_every_horizon(row, subject, [&](PlacedScheme& placed) {
     const std::vector<double> u = uneven_values(placed.size()), rate = placed.rate(u);
     const auto x = placed.particles().x.values();
-    const PrintedRate printed = printed_rate(as, {x.begin(), x.end()}, u, placed.particles().delta, 0);
+    const PrintedRate printed = as.printed_rate({x.begin(), x.end()}, u, placed.particles().delta, 0);
     return Point{.value = std::abs(rate[0] - printed.value) / printed.size,
                  .upper = 2.0 * row_round_off(placed.particles())};
   });
@@ -224,12 +223,14 @@ void add_zero_of_velocity(ExtremeRows& rows, const SchemeChoice& scheme) {
                          Test::bounds);
     };
     rows.add(named(subject), [=](Finding& row) { rate_at_zero(row, subject, subject); });
-    const Subject wrong = mistaken(subject, "downwind", "no viscosity");
-    rows.add_control(named(wrong), "a scheme with a mistake", [=](Finding& row) { rate_at_zero(row, wrong, subject); });
-    if (scheme.model != 1) continue;
+    if (const auto wrong = mistaken(subject, scheme.model->mistakes.not_monotone)) {
+      rows.add_control(named(*wrong), "a scheme with a mistake",
+                       [=](Finding& row) { rate_at_zero(row, *wrong, subject); });
+    }
+    if (!scheme.model->upwind) continue;
     const auto side = [&](const Subject& one, const std::string& where) {
-      return one.finding(zero, "Model I looks right where c_hat is zero", where, "share of neighbors on the right",
-                         Test::bounds);
+      return one.finding(zero, fmt::format("{} looks right where c_hat is zero", scheme.model->name), where,
+                         "share of neighbors on the right", Test::bounds);
     };
     rows.add(side(subject, check + ", side"), [=](Finding& row) { side_at_zero(row, subject); });
     if (fields.b) continue;

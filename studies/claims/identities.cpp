@@ -71,28 +71,18 @@ void measure(Finding& finding, const Subject& subject, const Sweep& sweep,
   judge(finding);
 }
 
-std::string remark_or(const Subject& subject, const char* model1, const char* model2) {
-  return subject.scheme.model == 1 ? model1 : model2;
-}
-
 }  // namespace
 
 Finding nearest_neighbor_rows(const Subject& subject, const std::vector<std::int64_t>& N, double ratio) {
   const Scene& scene = *subject.scene;
-  Finding finding = subject.finding(
-      remark_or(subject, "Remark 2.1", "Remark 2.1 for Model II"),
-      remark_or(subject, "the upwind difference", "central difference and nearest-neighbor viscosity"),
-      fmt::format("delta = {:g} h_min", ratio), "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
+  const NearestNeighbors& nearest = subject.scheme.model->nearest;
+  Finding finding = subject.finding(std::string(nearest.statement), std::string(nearest.claim),
+                                    fmt::format("delta = {:g} h_min", ratio),
+                                    "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
   if (ratio > 1.0) {
     finding.promised = finding.expected = Verdict::violated;
     finding.remark = "negative control: farther neighbors count";
   }
-  const auto at = [&](double x, bool of_b) {
-    double c = 0.0, b = 0.0;
-    scene.c({&x, 1}, {&c, 1});
-    if (!scene.standing()) scene.b({&x, 1}, {&b, 1});
-    return of_b ? b : c - b;
-  };
   for (const std::int64_t count : N) {
     for (const std::vector<double>& x : subject.positions(count)) {
       const Gaps gap = gaps(x, scene.period());
@@ -102,29 +92,11 @@ Finding nearest_neighbor_rows(const Subject& subject, const std::vector<std::int
       double largest = 0.0;
       for (std::ptrdiff_t j = 0; j < n; ++j) {
         const double* const y = placed.particles().x.at(j);
-        const double left = y[0] - y[-1], right = y[1] - y[0];
-        double b_prime = 0.0;
-        if (!scene.standing()) scene.b_prime({y, 1}, {&b_prime, 1});
-        double near[3] = {0.0, 0.0, 0.0};  // entries at j - 1, j, j + 1
-        if (subject.scheme.model == 1) {
-          const bool looks_left = at(y[0], false) > 0.0;
-          const double s = looks_left ? 1.0 : -1.0, d = looks_left ? left : right, i = looks_left ? y[-1] : y[1];
-          if (subject.scheme.nonlocal_divergence && !scene.standing()) b_prime = s * (at(y[0], true) - at(i, true)) / d;
-          near[looks_left ? 0 : 2] = s * at(i, false) / d;
-          near[1] = -s * at(y[0], false) / d - b_prime;
-        } else {
-          const double to_left = 0.5 * (y[0] + y[-1]), to_right = 0.5 * (y[0] + y[1]), both = left + right;
-          if (subject.scheme.nonlocal_divergence && !scene.standing()) {
-            b_prime = 2.0 * (at(to_right, true) - at(to_left, true)) / both;
-          }
-          const double viscosity = subject.mu * std::max({left, right, placed.particles().delta});
-          near[0] = (at(to_left, false) + viscosity / left) / both;
-          near[2] = (-at(to_right, false) + viscosity / right) / both;
-          near[1] = (at(to_left, false) - at(to_right, false) - viscosity / left - viscosity / right) / both - b_prime;
-        }
+        // Entries at j - 1, j, j + 1.
+        const auto near = nearest.row(subject.scheme, scene, subject.mu, placed.particles().delta, y);
         for (std::size_t k = 0; k < rows.width; ++k) {
           const std::ptrdiff_t offset = (rows.first + static_cast<std::ptrdiff_t>(k) + 1 + n) % n;
-          const double expected = offset < 3 ? near[offset] : 0.0;
+          const double expected = offset < 3 ? near[static_cast<std::size_t>(offset)] : 0.0;
           const double off = std::abs(rows(static_cast<std::size_t>(j), k) - expected) * gap.smallest;
           if (worse(off, largest)) largest = off;
         }
@@ -142,13 +114,14 @@ Finding nearest_neighbor_rows(const Subject& subject, const std::vector<std::int
 }
 
 Finding weights_are_not_negative(const Subject& subject, const Sweep& sweep) {
-  const bool first = subject.scheme.model == 1;
-  Finding finding = subject.finding(remark_or(subject, "Remark 2.2", "Remark 2.2 for Model II"),
-                                    first ? "W_k >= 0" : "sign(k) W_k >= 0", "weights", "max -W_k h", Test::bounds);
+  const bool one_sided = subject.scheme.model->upwind;
+  const WeightClaims& claims = subject.scheme.model->weights;
+  Finding finding = subject.finding(std::string(claims.not_negative), std::string(claims.not_negative_claim), "weights",
+                                    "max -W_k h", Test::bounds);
   measure(finding, subject, sweep, [&](const View& particle) {
     double largest = -HUGE_VAL;
     for (std::size_t k = 0; k < particle.z.size(); ++k) {
-      const double negative = first || particle.z[k] > 0.0 ? -particle.W[k] : particle.W[k];
+      const double negative = one_sided || particle.z[k] > 0.0 ? -particle.W[k] : particle.W[k];
       if (worse(negative, largest)) largest = negative;
     }
     return Measured{largest * particle.h, 0.0};
@@ -157,10 +130,9 @@ Finding weights_are_not_negative(const Subject& subject, const Sweep& sweep) {
 }
 
 Finding first_moment_is_one(const Subject& subject, const Sweep& sweep) {
-  const bool first = subject.scheme.model == 1;
-  Finding finding = subject.finding(first ? "Remark 2.2" : "(3.4), first moment",
-                                    first ? "sum d_k W_k = 1" : "sum (x_i - x_j) W_k / N_j = 1", "first moment",
-                                    "max |sum - 1|", Test::bounds);
+  const WeightClaims& claims = subject.scheme.model->weights;
+  Finding finding = subject.finding(std::string(claims.first_moment), std::string(claims.first_moment_claim),
+                                    "first moment", "max |sum - 1|", Test::bounds);
   finding.remark = "bound: an ulp per neighbor and four more, and an ulp of a position relative to a gap";
   measure(finding, subject, sweep, [](const View& particle) {
     const double moment = particle.sum([](double z, double W) { return std::abs(z * W); }) / particle.N;

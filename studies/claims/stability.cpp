@@ -12,17 +12,16 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
   const auto x = particles.x.values();
   if (condition == StepCondition::printed) {
     const double smallest = gaps({x.begin(), x.end()}, particles.period).smallest;
-    return lemma_step(subject.scheme, smallest, subject.scene->max_relative_velocity(), subject.mu);
+    return smallest / subject.scheme.model->step_lemma.speed(*subject.scene, subject.mu);
   }
-  return 1.0 / placed.scheme().strongest_decay();
+  return 1.0 / placed.scheme().rows()->strongest_decay();
 }
 
 namespace {
 
-/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum. The terms of Model I sum to about one, those of D in
-/// Model II to two, and those of A to no more.
+/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum.
 double norm_bound(const Subject& subject, const PlacedScheme& placed, double dt, double growth) {
-  const double terms = (subject.scheme.model == 2 ? 4.0 : 1.0) * (2.0 * placed.particles().windows.widest + 8.0);
+  const double terms = subject.scheme.model->row_terms * (2.0 * placed.particles().windows.widest + 8.0);
   return 1.0 + dt * growth + terms * std::numeric_limits<double>::epsilon();
 }
 
@@ -30,13 +29,13 @@ double norm_bound(const Subject& subject, const PlacedScheme& placed, double dt,
 
 Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepCondition condition, double cfl) {
   const bool corrected = condition == StepCondition::corrected;
+  const StepLemma& lemma = subject.scheme.model->step_lemma;
   const FieldBounds fields = field_bounds(*subject.scene, subject.t());
   const double growth = fields.c_hat_1 + fields.b_1;
   // A control is stepped as the scheme that it is taken for.
   SchemeChoice itself = subject.scheme;
-  itself.control.clear();
-  Finding finding = subject.finding(subject.scheme.model == 1 ? (corrected ? "Lemma 2.4, row by row" : "Lemma 2.4")
-                                                              : (corrected ? "Lemma 3.3, corrected" : "Lemma 3.3"),
+  itself.control = nullptr;
+  Finding finding = subject.finding(std::string(corrected ? lemma.row_by_row : lemma.name),
                                     growth == 0.0 ? "maximum principle" : "norm <= 1 + dt (||c_hat'|| + ||b'||)",
                                     fmt::format("CFL {:g}", cfl), "max norm of I + dt R", Test::bounds);
   finding.variable = "delta/h";
@@ -67,8 +66,8 @@ Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepConditio
 
 Finding printed_condition_on_uneven_gaps(const Subject& subject, const std::vector<std::int64_t>& N) {
   const FieldBounds fields = field_bounds(*subject.scene, 0.0);
-  Finding finding =
-      subject.finding("Lemma 3.3", "norm <= 1 + dt (||c_hat'|| + ||b'||)", {}, "max norm of I + dt R", Test::bounds);
+  Finding finding = subject.finding(std::string(subject.scheme.model->step_lemma.name),
+                                    "norm <= 1 + dt (||c_hat'|| + ||b'||)", {}, "max norm of I + dt R", Test::bounds);
   finding.check = "uneven gaps, h/2 h/2 3h/2 3h/2 ..., delta just below 2h, CFL 1";
   finding.variable = "delta/h";
   finding.expected = Verdict::violated;

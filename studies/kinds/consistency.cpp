@@ -22,7 +22,7 @@ void read_consistency(const Table& root, Study& study) {
   }
 
   for (const Subject& subject : read_subjects(root, study.scene)) {
-    for (const LemmaEstimate& estimate : estimates(subject.scheme.model)) {
+    for (const LemmaEstimate& estimate : subject.scheme.model->estimates) {
       // D does not depend on how the divergence is written.
       if (estimate.viscous && subject.scheme.nonlocal_divergence) continue;
       const auto add = [&](const std::string& check, std::function<Finding()> take) {
@@ -34,7 +34,7 @@ void read_consistency(const Table& root, Study& study) {
         if (path.nonlocal_source != estimate.nonlocal) continue;
         add(path.name, [=] { return consistency_along(subject, estimate, path); });
       }
-      if (subject.scheme.model == 2 && estimate.nonlocal) {
+      if (!estimate.second_term.empty()) {
         add("delta << h", [=] { return order_below_spacing(subject, estimate, sweep.N, 0.01); });
         add("delta -> 0 at fixed h",
             [=] { return growth_below_spacing(subject, estimate, sweep.N.back(), sweep.ratios); });

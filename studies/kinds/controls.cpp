@@ -53,10 +53,10 @@ Finding along_path(const Series& series, const SeriesResult& result) {
 Finding consistency(const Subject& subject, const PathChoice& path) {
   const Scene& scene = *subject.scene;
   const bool nonlocal = path.nonlocal_source;
-  Finding finding = subject.finding(
-      subject.scheme.model == 1 ? (nonlocal ? "Lemma 2.3" : "Lemma 2.5") : (nonlocal ? "Lemma 3.2" : "Lemma 3.4"),
-      nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {}, "max |rate + f - du/dt|",
-      Test::rate);
+  Finding finding =
+      subject.finding(std::string(nonlocal ? subject.scheme.model->to_nonlocal : subject.scheme.model->to_pde),
+                      nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {},
+                      "max |rate + f - du/dt|", Test::rate);
   finding.variable = nonlocal ? "h" : "max(h,delta)";
   finding.theory_order = 1.0;
   for (const std::int64_t N : path.N) {
@@ -80,7 +80,8 @@ Finding trajectories(const SchemeEntry& entry, const Scene& scene) {
                   .variable = "",
                   .promised = Verdict::holds};
   SceneText text = scene.text();
-  if (entry.scheme.control == misprinted_trajectories) text.flow = misprinted_flow;
+  const Control* const control = entry.scheme.control;
+  if (control != nullptr && control->flow != nullptr) text.flow = control->flow;
   Point point{.value = 0.0, .lower = 0.0, .upper = 0.0};
   try {
     const Scene checked(text);
@@ -93,7 +94,7 @@ Finding trajectories(const SchemeEntry& entry, const Scene& scene) {
 }
 
 /// A mistake is noticed by some check, and nothing is noticed where there is none.
-Finding alarms(const std::string& control, const std::string& subject, double count) {
+Finding alarms(const Control* control, const std::string& subject, double count) {
   Finding finding{.statement = "detection",
                   .claim = "no check raises an alarm",
                   .subject = subject,
@@ -104,10 +105,9 @@ Finding alarms(const std::string& control, const std::string& subject, double co
                   .promised = Verdict::holds,
                   .expected = Verdict::holds,
                   .points = {{.value = count, .lower = 0.0, .upper = 0.0}}};
-  for (const NamedControl& known : named_controls) {
-    if (known.name != control) continue;
+  if (control != nullptr) {
     finding.claim = "some check raises an alarm";
-    finding.remark = known.mistake;
+    finding.remark = control->mistake;
     finding.points.front().lower = 1.0;
     finding.points.front().upper = HUGE_VAL;
   }

@@ -37,15 +37,15 @@ void read_digits(const Table& root, Study& study) {
 
   std::set<std::string> known;
   for (const Table& table : root.array_of_tables("weights")) {
-    const int model = read_model(table);
-    const WeightsChoice choice{model, read_kernel(table, model)};
-    if (!known.insert(fmt::format("{} {}", model, choice.kernel.label())).second) {
+    const ModelCard* const model = &read_model(table);
+    const WeightsChoice choice{model, read_kernel(table, *model)};
+    if (!known.insert(fmt::format("{} {}", model->number, choice.kernel.label())).second) {
       table.place().fail("the same weights a second time; leave one of them out");
     }
     for (const CellForm form : {CellForm::factored, CellForm::difference}) {
       add(round_off_of_weights(choice, {}, form), [=] { return round_off_of_weights(choice, ratios, form); });
     }
-    if (model == 2) {
+    if (model->renormalized) {
       add(round_off_of_renormalization(choice, {}), [=] { return round_off_of_renormalization(choice, ratios); });
     }
   }

@@ -31,9 +31,9 @@ void read_identities(const Table& root, Study& study) {
     add_for_subject("Remark 2.1", "delta above every gap",
                     [=] { return nearest_neighbor_rows(subject, sweep.N, 4.0); });
     add_for_subject("Remark 2.2", "weights", [=] { return weights_are_not_negative(subject, sweep); });
-    add_for_subject(subject.scheme.model == 1 ? "Remark 2.2" : "(3.4)", "first moment",
+    add_for_subject(subject.scheme.model->renormalized ? "(3.4)" : "Remark 2.2", "first moment",
                     [=] { return first_moment_is_one(subject, sweep); });
-    if (subject.scheme.model == 1) continue;
+    if (!subject.scheme.model->renormalized) continue;
     add_for_subject("(3.4)", "sum of weights", [=] { return weights_cancel(subject, sweep); });
     add_for_subject("(3.5)", "second moment", [=] { return second_moment_is_bounded(subject, sweep, false); });
     add_for_subject("(3.5), with |W_k|", "second moment",

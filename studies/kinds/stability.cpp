@@ -24,7 +24,7 @@ void read_stability(const Table& root, Study& study) {
     for (const toml::node& item : printed.list("violated", "violated = [\"power(0.9)\"]")) {
       const std::string kernel = printed.text("violated", item, "violated = [\"power(0.9)\"]");
       if (std::none_of(subjects.begin(), subjects.end(), [&](const Subject& subject) {
-            return subject.scheme.model == 2 && subject.scheme.kernel.label() == kernel;
+            return !subject.scheme.model->step_lemma.enough_for_every_kernel && subject.scheme.kernel.label() == kernel;
           })) {
         printed.place(item).fail(fmt::format(
             "no [[scheme]] of Model II has the kernel \"{}\"; name one of those as explain prints it", kernel));
@@ -38,11 +38,11 @@ void read_stability(const Table& root, Study& study) {
       study.measurements.push_back({subject.finding(statement, {}, check, {}, Test::bounds).label(),
                                     [take = std::move(take)](const auto&) { return take(); }});
     };
-    const bool second = subject.scheme.model == 2;
-    const std::string lemma = second ? "Lemma 3.3" : "Lemma 2.4";
-    const std::string sharper = second ? "Lemma 3.3, corrected" : "Lemma 2.4, row by row";
+    const bool enough = subject.scheme.model->step_lemma.enough_for_every_kernel;
+    const std::string lemma(subject.scheme.model->step_lemma.name),
+        sharper(subject.scheme.model->step_lemma.row_by_row);
     const Verdict expected =
-        second && failing.count(subject.scheme.kernel.label()) > 0 ? Verdict::violated : Verdict::holds;
+        !enough && failing.count(subject.scheme.kernel.label()) > 0 ? Verdict::violated : Verdict::holds;
     add(lemma, "CFL 1", [=] {
       Finding finding = step_is_bounded(subject, sweep, StepCondition::printed);
       finding.expected = expected;
@@ -50,7 +50,7 @@ void read_stability(const Table& root, Study& study) {
     });
     add(sharper, "CFL 1", [=] { return step_is_bounded(subject, sweep, StepCondition::corrected); });
     add(sharper, "CFL 1.5", [=] { return step_is_bounded(subject, sweep, StepCondition::corrected, 1.5); });
-    if (second && subject.arrangement == Arrangement::uniform) {
+    if (!enough && subject.arrangement == Arrangement::uniform) {
       add(lemma, "uneven gaps", [=] { return printed_condition_on_uneven_gaps(subject, sweep.N); });
     }
   }

@@ -65,7 +65,8 @@ void read_stability_map(const Table& root, Study& study) {
     root.place(*root.find("scene")).fail("T = 0; growth over T needs time: write T = 1");
   }
   const auto require_viscosity = [](const SchemeChoice& scheme, double mu, const Place& at) {
-    if (scheme.model == 2 && mu == 0.0) at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
+    if (scheme.model->viscous && mu == 0.0)
+      at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
   };
   for (const Subject& subject : subjects)
     require_viscosity(subject.scheme, subject.mu, root.place(*root.find("scheme")));
@@ -73,11 +74,11 @@ void read_stability_map(const Table& root, Study& study) {
   if (root.find("control") != nullptr) {
     for (const Table& control : root.array_of_tables("control")) {
       const SchemeEntry entry = read_control(control, scene);
-      if (std::find(unstable_controls.begin(), unstable_controls.end(), entry.scheme.control) ==
+      if (std::find(unstable_controls.begin(), unstable_controls.end(), entry.scheme.control->name) ==
           unstable_controls.end()) {
         control.place(*control.find("name"))
             .fail(fmt::format("name = \"{}\"; only controls that no step of forward Euler keeps stable belong here: {}",
-                              entry.scheme.control, fmt::join(unstable_controls, ", ")));
+                              entry.scheme.control->name, fmt::join(unstable_controls, ", ")));
       }
       require_viscosity(entry.scheme, entry.mu, control.place());
       controls.push_back({entry.scheme, entry.mu, study.scene, Arrangement::uniform});
@@ -100,7 +101,7 @@ void read_stability_map(const Table& root, Study& study) {
       measure(name_of_measurement(subject, integrator, std::string("sharp limit, ") + quantity_of(what)),
               [=, &integrator] { return sharp_limit(subject, integrator, grid, what); });
     }
-    if (subject.arrangement == Arrangement::uniform && subject.scheme.control.empty()) {
+    if (subject.arrangement == Arrangement::uniform && subject.scheme.control == nullptr) {
       measure(name_of_measurement(subject, integrator, "smallest entry of a step"),
               [=, &integrator] { return smallest_entry(subject, integrator, grid); });
     }

@@ -32,10 +32,17 @@ double panel_reach(const Case& c) {
 
 bool runs_in_vector_form(const Case& c) {
   if (c.readable) return false;
-  if (c.integrator->implicit() || !c.scheme.control.empty() || c.step.bound == StepRule::Bound::rows) return false;
-  if (c.scene->standing() || c.scheme.model == 1) return true;
-  return c.scheme.model == 2 &&
-         (midpoint_modes(VelocitySeries(*c.scene)) || VelocityPanels::find(*c.scene, panel_reach(c)));
+  if (c.integrator->implicit() || c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows) return false;
+  if (c.scene->standing()) return true;
+  switch (c.scheme.model->vector_form) {
+    case VectorForm::none:
+      return false;
+    case VectorForm::upwind:
+      return true;
+    case VectorForm::symmetric:
+      return midpoint_modes(VelocitySeries(*c.scene)) || VelocityPanels::find(*c.scene, panel_reach(c));
+  }
+  return false;
 }
 
 std::string ensemble_key(const Case& c) {
@@ -48,7 +55,7 @@ std::string ensemble_key(const Case& c) {
 }
 
 std::string sweep_key(const Case& c) {
-  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model, c.scheme.kernel.label(), c.delta, c.mu);
+  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model->number, c.scheme.kernel.label(), c.delta, c.mu);
 }
 
 namespace {
@@ -101,13 +108,14 @@ class Ensemble {
       Member& m = members_.emplace_back(*c, count, team_);
       add_source(m, count);
       const bool moving = !scene_.standing(), local = !c->scheme.nonlocal_divergence;
-      needs.c_hat |= c->scheme.model == 1 && moving;
-      needs.c_and_b |= c->scheme.model == 1 && moving && !local;
+      const VectorForm form = c->scheme.model->vector_form;
+      needs.c_hat |= form == VectorForm::upwind && moving;
+      needs.c_and_b |= form == VectorForm::upwind && moving && !local;
       needs.b_prime |= local && moving;
-      needs.midpoints |= c->scheme.model == 2 && moving;
+      needs.midpoints |= form == VectorForm::symmetric && moving;
       needs.phases |= m.source->is_series();
       // The side of a source is that of c_hat.
-      needs.c_hat |= c->scheme.model == 1 && m.source->is_series() && c->nonlocal_source;
+      needs.c_hat |= c->scheme.model->continuum->sided && m.source->is_series() && c->nonlocal_source;
       needs.delta = std::max(needs.delta, c->delta);
     }
     particles_.emplace(scene_, start_positions(first_.start, count, scene_.period()), needs, team_);
@@ -146,8 +154,8 @@ class Ensemble {
       NonlocalModel model = nonlocal_model(c.scheme, c.mu, c.delta);
       const std::size_t points = c.source_refinement * sufficient_points(scene_, model);
       m.own_source.emplace(
-          scene_, [&](Look look) { return nonlocal_source(scene_, model, points, look); }, c.scheme.model == 1, true,
-          count);
+          scene_, [&](Look look) { return nonlocal_source(scene_, model, points, look); },
+          c.scheme.model->continuum->sided, true, count);
     } else {
       m.own_source.emplace(
           scene_, [&](Look) { return make_source(c.scheme, scene_, c.mu, true, c.delta, c.source_rule); }, false, false,
@@ -314,7 +322,8 @@ class Ensemble {
     if (scene_.standing()) {
       r.work.velocity_evaluations = std::ssize(particles_->x);
     } else {
-      r.work.velocity_evaluations = placements * ((m.c.scheme.model == 1 ? 2 : 0) + (local ? 1 : 0));
+      r.work.velocity_evaluations =
+          placements * ((m.c.scheme.model->vector_form == VectorForm::upwind ? 2 : 0) + (local ? 1 : 0));
       r.flow_evaluations = placements - std::ssize(particles_->x);
     }
     r.quadrature_points = m.source->quadrature_points();

@@ -32,10 +32,10 @@ void check_rows(void (*add)(ExtremeRows&, const Extremes&), const std::string& s
   };
   std::map<std::string, Count> claims;
   for (const Measurement& measurement : rows.take()) {
-    if (measurement.name.rfind(statement, 0) != 0) continue;
-    const Finding finding = measurement.take({});
+    if (measurement.check.label().rfind(statement, 0) != 0) continue;
+    const Finding finding = measurement.take();
     INFO(finding.claim << "\n" << finding.label() << "\n" << finding.judgement.reason);
-    CHECK(finding.label() == measurement.name);
+    CHECK(finding.label() == measurement.check.label());
     CHECK(finding.as_expected());
     CHECK_FALSE(finding.points.empty());
     ++(finding.expected == finding.promised ? claims[finding.claim].right : claims[finding.claim].controls);
@@ -124,25 +124,18 @@ TEST_CASE("a run without source is that of a case whose source is zero", "[extre
   }
 }
 
-TEST_CASE("what cannot be measured is a finding without a verdict, and a row is not listed twice", "[extremes]") {
-  const Finding row{.statement = "row",
-                    .claim = "a claim",
-                    .subject = "nothing",
-                    .check = "here",
-                    .test = Test::bounds,
-                    .promised = Verdict::holds,
-                    .expected = Verdict::holds};
+TEST_CASE("what cannot be measured is a finding without a verdict, and a control is not listed twice", "[extremes]") {
+  const Check row{.statement = "row", .claim = "a claim", .subject = "nothing", .coordinates = {{"where", "here"}}};
   ExtremeRows rows;
   rows.add(row, [](Finding&) { throw std::domain_error("no particles"); });
-  CHECK_THROWS_AS(rows.add(row, [](Finding&) {}), std::logic_error);
-  Finding control = row;
-  control.check = "there";
+  Check control = row;
+  control.coordinates = {{"where", "there"}};
   rows.add_control(control, "it must",
                    [](Finding& finding) { finding.points.push_back({.value = 2.0, .upper = 1.0}); });
   rows.add_control(control, "it must", [](Finding&) {});
   const auto taken = rows.take();
   REQUIRE(taken.size() == 2);
-  const Finding failed = taken[0].take({}), caught = taken[1].take({});
+  const Finding failed = taken[0].take(), caught = taken[1].take();
   CHECK(failed.statement == "row");
   CHECK(failed.judgement.verdict == Verdict::inconclusive);
   CHECK_FALSE(failed.as_expected());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "studies/kinds/kinds.hpp"
@@ -111,6 +112,19 @@ Study read_study(const std::string& file) {
         fmt::format("{}: {} bytes; a study file may have at most {}: split it", file, text.str().size(), most));
   }
   return parse_study(text.str(), file);
+}
+
+std::vector<Study> read_studies(const std::vector<std::string>& files) {
+  std::vector<Study> studies;
+  std::set<std::string> names;
+  for (const std::string& file : files) {
+    studies.push_back(read_study(file));
+    if (!names.insert(studies.back().name).second) {
+      throw InputError(fmt::format("{}: a second study named \"{}\"; it would overwrite the results of the first", file,
+                                   studies.back().name));
+    }
+  }
+  return studies;
 }
 
 }  // namespace acstudy

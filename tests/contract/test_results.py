@@ -11,7 +11,7 @@ import unittest
 import h5py
 import numpy as np
 
-from tests.program import (ACSTUDY, CASES_OF_WIDE, FIELDS, MODEL_II, ROOT, STUDY, USE, WIDE, ProgramTest, edit,
+from tests.program import (ACSTUDY, CASES_OF_WIDE, FIELDS, MODEL_II, STUDY, USE, WIDE, ProgramTest, edit,
                            numbers, series_of, text_of)
 
 
@@ -188,24 +188,6 @@ class Results(ProgramTest):
         changed = numbers(self.folder / "out" / "tiny.h5")
         self.assertEqual({name for name in one if name.endswith("/u") and one[name] != changed[name]},
                          {name for name in one if re.fullmatch(r"series/00[678]/cases/\d+/u", name)})
-
-
-class Readme(ProgramTest):
-    """The README shows what the program prints."""
-
-    def test_its_study_gives_the_output_it_shows(self):
-        readme = (ROOT / "README.md").read_text(encoding="utf-8")
-        study, = re.findall(r'```toml\n(\[study\]\nname = "first".*?)```', readme, re.S)
-        shown = re.findall(r"```console\n\$ build/acstudy (.*?)\n(.*?)```", readme, re.S)
-        self.assertEqual([command for command, _ in shown], ["explain first.toml", "run first.toml --out out",
-                                                          "fit errors.csv --order 1",
-                                                          "fit drag.csv --value drag --order 2"])
-        self.write("first.toml", study)
-        for name, table in re.findall(r"This is\s+`(\w+\.csv)`:\n\n```csv\n(.*?)```", readme, re.S):
-            self.write(name, table)
-        for command, output in shown:
-            with self.subTest(command):
-                self.assertEqual(self.acstudy(*command.split()).stdout, output)
 
 
 if __name__ == "__main__":

@@ -1,17 +1,38 @@
-#include "studies/commands/bench/bench_command.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <memory>
 
+#include "studies/commands/bench/bench.hpp"
+#include "studies/commands/command.hpp"
+#include "studies/commands/exit.hpp"
+#include "studies/commands/output.hpp"
+#include "studies/commands/say.hpp"
+#include "studies/commands/stop.hpp"
+#include "studies/kinds/study_file.hpp"
 #include "studies/running/run_case.hpp"
 #include "studies/storing/bench_store.hpp"
 
 namespace acstudy {
 
 namespace {
+
+struct BenchRequest {
+  std::filesystem::path out = "reports/out/bench";
+  BenchOptions options;
+  bool fresh = false;  ///< drop the samples of an earlier bench
+  std::string command;
+};
+
+struct BenchResult {
+  BenchOutcome outcome;
+  std::size_t cases = 0;  ///< distinct
+  double seconds = 0.0;   ///< that all of it took
+  bool complete = false;  ///< every case that has a solution has its number of runs and its time
+};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -24,8 +45,9 @@ void show_progress(std::int64_t round, std::size_t open, std::size_t cases) {
   std::fflush(stderr);
 }
 
-}  // namespace
-
+/// Times the cases of convergence studies one at a time and keeps the samples in `request.out`: at the end, when `stop`
+/// becomes true, and about once a second, so that nothing that kills the program costs more.
+/// @throws InputError, StoreError
 BenchResult bench_studies(const std::vector<Study>& studies, const BenchRequest& request,
                           const std::atomic<bool>& stop) {
   Bench bench = plan_bench(studies, request.options.threads);
@@ -49,6 +71,60 @@ BenchResult bench_studies(const std::vector<Study>& studies, const BenchRequest&
   result.seconds = seconds_since(start);
   write(result.complete);
   return result;
+}
+
+int bench(const std::vector<std::string>& files, const BenchRequest& request) {
+  const std::vector<Study> studies = read_studies(files);
+  plan_bench(studies, request.options.threads);  // refuses what it cannot time before anything is written
+  prepare_folder(request.out);
+  const std::atomic<bool>& stop = stop_on_signals();
+  const BenchResult result = bench_studies(studies, request, stop);
+  fmt::print("{} cases, {} timed runs in {:.1f} s; samples in {}\n", result.cases, result.outcome.runs, result.seconds,
+             request.out.string());
+  for (const std::string& what : result.outcome.departs) say("two runs of one case differ: " + what);
+  for (const std::string& what : result.outcome.failed) say("not timed, it has no solution: " + what);
+  if (stop) {
+    say("interrupted; finished runs are stored, and the same command goes on from them");
+    return interrupted;
+  }
+  return !result.outcome.departs.empty() ? departs : !result.outcome.failed.empty() ? numerical_failure : done;
+}
+
+}  // namespace
+
+Command bench_command() {
+  struct Arguments {
+    std::vector<std::string> files;
+    BenchRequest request;
+    std::string out = request.out.string();
+  };
+  const auto a = std::make_shared<Arguments>();
+  return {"bench",
+          "Time the cases of convergence studies, each alone, in turn with all others; exit 1 if two runs of one "
+          "case differ in error or work",
+          {{.name = "STUDY.toml", .target = &a->files, .help = "study files", .required = true},
+           {.name = "--out", .target = &a->out, .help = "folder for DIR/bench.h5 and DIR/bench.json", .type = "DIR"},
+           {.name = "--runs",
+            .target = &a->request.options.runs,
+            .help = "least number of timed runs of a case",
+            .type = "N",
+            .range = {{1, most_runs}}},
+           {.name = "--least-seconds",
+            .target = &a->request.options.least_seconds,
+            .help = fmt::format("least time of the timed runs of a case in all; {} runs do", most_runs),
+            .type = "S",
+            .range = {{0.0, 3600.0}}},
+           {.name = "--threads",
+            .target = &a->request.options.threads,
+            .help = "threads that share the work of a case; several numbers, as in 1,2, time each case with each",
+            .type = "N,...",
+            .range = {{1, 1024}}},
+           {.name = "--fresh", .target = &a->request.fresh, .help = "drop the samples of an earlier bench in DIR"}},
+          [a](const std::string& command_line) {
+            a->request.out = a->out;
+            a->request.command = command_line;
+            return bench(a->files, a->request);
+          }};
 }
 
 }  // namespace acstudy

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "studies/commands/command.hpp"
+#include "studies/commands/exit.hpp"
+#include "studies/commands/list.hpp"
+#include "studies/reading/input_error.hpp"
+
+namespace acstudy {
+
+namespace {
+
+struct ListRequest {
+  std::string what, kind;
+};
+
+int list(const ListRequest& request) {
+  const auto& [what, kind] = request;
+  if (what != "keys" && !kind.empty()) {
+    throw InputError(
+        fmt::format("list {} {}; only keys are of a kind: write keys {}; see acstudy list --help", what, kind, kind));
+  }
+  what == "keys" ? print_keys(kind) : print_list(what);
+  return done;
+}
+
+}  // namespace
+
+Command list_command() {
+  const auto request = std::make_shared<ListRequest>();
+  return {"list",
+          "Print what can be named in a study",
+          {{.name = "WHAT",
+            .target = &request->what,
+            .help = "schemes, kernels, integrators, scenes or kinds, all of them by default; keys: of a study file",
+            .one_of = {"schemes", "kernels", "integrators", "scenes", "kinds", "keys"}},
+           {.name = "KIND", .target = &request->kind, .help = "with keys: those of studies of this kind"}},
+          [request](const std::string&) { return list(*request); }};
+}
+
+}  // namespace acstudy

@@ -90,7 +90,7 @@ void for_each_attribute(const BenchSeries& planned, Visit&& visit) {
   visit("divergence", std::string(series.scheme.nonlocal_divergence ? "nonlocal" : "local"));
   visit("kernel", series.scheme.kernel.name);
   if (const auto& parameter = series.scheme.kernel.row().parameter) {
-    visit(std::string(parameter->name()), series.scheme.kernel.parameter);
+    visit(std::string(parameter->name()).c_str(), series.scheme.kernel.parameter);
   }
   if (series.scheme.model->viscous) visit("mu", first.mu);
   visit("path", series.path);

@@ -75,7 +75,7 @@ Rule averaged_atoms(const KernelProfile& kernel, std::size_t points, double powe
   return atoms;
 }
 
-/// The n-point Gauss rule of these atoms. Kept, for a study asks for the same few again and again, and each takes
+/// The n-point Gauss rule of these atoms. Rules are cached: a study asks for the same few many times, and each takes
 /// milliseconds.
 Rule averaged_rule(const KernelProfile& kernel, std::size_t points, double power) {
   static std::mutex mutex;

@@ -75,7 +75,7 @@ void check_finite(const char* name, const Expression& field, std::span<const dou
   check(by_t, fmt::format("the derivative of {} by t", name), smooth);
 }
 
-/// Fails if the field has a pole where it is largest: if it still grows where no particles can tell places apart.
+/// Fails if the field has a pole where it is largest: if a millionth of the period beside it is a thousand times less.
 void check_bounded(const char* name, const Expression& field, std::span<const double> x, double t, double period) {
   const auto size = [&](double at) {
     double value = 0.0;
@@ -87,7 +87,7 @@ void check_bounded(const char* name, const Expression& field, std::span<const do
   const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto top = std::max_element(values.begin(), values.end(), smaller);
   const double here = x[static_cast<std::size_t>(top - values.begin())];
-  // Golden sections of the two cells around it, down to the last digits.
+  // Golden-section search for the largest size in the two cells around it, down to the last digits.
   double left = here - period / static_cast<double>(x.size()), right = here + period / static_cast<double>(x.size());
   while (right - left > 4e-16 * period) {
     const double part = (right - left) / (1.0 + std::numbers::phi), a = left + part, b = right - part;

@@ -27,7 +27,7 @@ struct SceneText {
   std::optional<std::string> u0 = {};  ///< initial values u0(x), where no solution is known
   std::optional<std::string> f = {};   ///< source f(x, t), where no solution is known; absent: none
 
-  /// What is known of the solution, as text that differs where that differs: u, or u0 and f.
+  /// What is known of the solution as text, equal exactly where that is equal: u, or u0 and f.
   std::string solution() const;
 };
 
@@ -117,7 +117,7 @@ class Trajectories {
 
   /// True if positions are known in closed form, each on its own.
   bool closed_form() const { return at_start_.has_value(); }
-  /// Positions come of their phases.
+  /// True if positions are computed from their phases, x = period/pi atan2(p, q).
   bool by_phases() const { return angle_.has_value(); }
   /// Positions of the particles from number `begin` on, at time t.  @pre closed_form()
   void at(double t, std::size_t begin, std::span<double> x) const {

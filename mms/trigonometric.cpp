@@ -40,7 +40,7 @@ ACSTUDY_VECTOR_CLONES void normalize_twice(double* cosine, double* sine, std::si
   }
 }
 
-/// Calls sweep(arrays..., n) for whole vectors, what is left of the arrays among them.
+/// Calls sweep(arrays..., n) with n a multiple of vector_width; the rest of the arrays is filled up to a whole vector.
 template <class Sweep, class... Arrays>
 void in_whole_vectors(Sweep&& sweep, std::size_t size, Arrays*... arrays) {
   const std::size_t whole = size / vector_width * vector_width, rest = size - whole;
@@ -124,7 +124,7 @@ std::optional<TrigonometricSeries> trigonometric_series(const Field& field, doub
   for (const double value : values) scale = std::max(scale, std::abs(value));
   if (!std::isfinite(scale)) return std::nullopt;
   TrigonometricSeries series;
-  // What is left of a mode that is not there: round-off of the samples and of their sum.
+  // A mode that the field does not have comes out as the round-off of the samples and of their sum.
   const double round_off = 4e-16 * scale;
   samples.interpolate(values, round_off, series);
   if (series.highest() > most) return std::nullopt;

@@ -9,8 +9,9 @@ namespace acstudy {
 
 /// A cell [inner, outer] of distances in units of the horizon, 0 <= inner <= outer <= 1.
 ///
-/// Its width and what is left up to the horizon are lengths of their own, each to the last place: with 1e4 neighbors
-/// `outer - inner` has four digits fewer, and `1 - outer` loses as many as the cell is near the horizon.
+/// Its width and the distances of its ends to the horizon are kept beside the ends, each exact to the last place.
+/// Computed from the ends they would not be: with 1e4 neighbors `outer - inner` has four digits fewer, and so has
+/// `1 - outer` near the horizon.
 struct Cell {
   double inner, outer;
   double width;                   ///< outer - inner
@@ -26,7 +27,7 @@ class CellWalk {
   /// The next cell, up to the neighbor at distance d, which is `gap` beyond the one before.
   Cell to(double d, double gap) {
     Cell cell = to_horizon();
-    // A neighbor that ties with the horizon may stand slightly beyond it; no cell does.
+    // A neighbor at exactly the horizon may stand slightly beyond it by round-off; its cell ends at the horizon.
     cell.outer = outer_ = std::min(d * per_delta_, 1.0);
     cell.rest_outer = rest_ = std::max((delta_ - d) * per_delta_, 0.0);
     cell.width = std::min(gap * per_delta_, cell.rest_inner);

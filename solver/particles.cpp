@@ -8,7 +8,7 @@
 namespace acstudy {
 
 double inside_horizon(double delta, double first, double last, double period) {
-  // Beyond some 1e5 particles a tie is lost to the round-off of the positions themselves.
+  // The second term is for more than some 1e5 particles, where the round-off of positions exceeds the tolerance.
   const double largest = std::max(std::abs(first), std::abs(last) + period);
   return delta * (1.0 + horizon_tie_tolerance) + 4.0 * std::numeric_limits<double>::epsilon() * largest;
 }

@@ -15,8 +15,7 @@
 
 namespace acstudy {
 
-/// Memory that reads as zero and is not touched before it is used: of large arrays, most of the room for ghosts never
-/// is.
+/// Memory that reads as zero and costs nothing until it is used: of large arrays most of the room for ghosts never is.
 template <class T>
 struct UntouchedZeros {
   using value_type = T;

@@ -13,7 +13,7 @@ namespace acstudy {
 
 struct CorpusEntry {
   std::string name;
-  std::vector<Level> levels;   ///< coarse to fine, unless that is the point
+  std::vector<Level> levels;   ///< coarse to fine, but in entries about levels in another order
   double theory_order;         ///< 0: the error must settle
   std::vector<Verdict> right;  ///< more than one only where each is right
   std::string why;             ///< why that is right, whatever a judge says

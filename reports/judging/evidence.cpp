@@ -19,18 +19,18 @@ constexpr double slowest_correction = 0.4;
 
 /// An error that falls with a higher order than this has not stopped falling.
 constexpr double slowest_fall = 0.45;
-/// Pairwise orders this close to those of a law are its own.
+/// Pairwise orders this close to those of a law are taken to follow it.
 constexpr double closest_following = 0.02;
-/// What condemns must not be wrong more often than this.
+/// A verdict against theory must not be wrong more often than this.
 constexpr double firm_miss = 0.01, firm_level = 0.02;
-/// An order without a drift that is farther than this from theory's is no accident.
+/// An order that does not drift and is farther than this from theory's is another order, not scatter.
 constexpr double clear_distance = 0.4;
 /// Corrections that leave the order at theory's fit well enough if their squares are below this multiple of a line's.
 constexpr double hint_ratio = 2.0;
 /// Orders that still fall by more than this from level to level have not settled on a lower one.
 constexpr double widest_fall = 1.0;
 
-/// A last pairwise order farther off than this is no scatter that could be averaged away.
+/// A last pairwise order farther off than this is no scatter.
 constexpr double widest_scatter = 0.25;
 
 std::string listed(std::span<const double> orders) {

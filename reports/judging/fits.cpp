@@ -81,7 +81,7 @@ double highest_z(const Logarithms& logs, double q, double at_last = largest_shar
   return std::log1p(std::max(largest_share_at_first, at_last * std::pow(logs.ratio.back(), -q)));
 }
 
-/// The corrected law at a given correction: what is left is a line.
+/// The corrected law with D and q given: in logarithms the rest is a line.
 class Correction {
  public:
   Correction(const Logarithms& logs, double q) : logs_(logs), corrected_(logs.e) {
@@ -209,7 +209,7 @@ Estimate profile(const Logarithms& logs, const BestLaw& best, double bound) {
           end(1.0, boundary(residual, best.z, lowest_z, bound))};
 }
 
-/// Noise that is known beforehand counts like so many levels in which it was seen.
+/// Noise that is known beforehand weighs as much as if it had been seen in so many levels.
 constexpr std::size_t known_freedom = 2;
 
 double known_squares(LevelView levels) {

@@ -73,7 +73,7 @@ ScanTruth truth_of(const ScanSeries& series, double theory_order) {
   const bool first_term_hidden = missing <= shown;
   if (first_term_hidden) {
     const bool second = theory_order == series.p2;
-    // What lies below p2 may be where the orders go.
+    // The orders may yet fall to one below p2.
     return {second, !second, theory_order > 0.0 && theory_order < series.p2, theory_order < series.p2 ? 0 : -1};
   }
   return {limit, !limit, true, 0};

@@ -12,7 +12,7 @@ namespace acstudy {
 
 struct ValueEntry {
   std::string name;
-  std::vector<Value> values;  ///< coarse to fine, unless that is the point
+  std::vector<Value> values;  ///< coarse to fine, but in entries about levels in another order
   double theory_order;
   std::vector<Verdict> right;  ///< more than one only where each is right
   std::string why;             ///< why that is right, whatever a judge says

@@ -90,7 +90,7 @@ std::optional<Outlier> find_outlier(LevelView levels) {
     const double deviation = std::log(levels[i].error / expected);
     const std::size_t j = i > 0 ? i - 1 : 1;
     found.reset();
-    // A coarsest level that is off by little is on its way.
+    // A coarsest level that is off by little is pre-asymptotic, and no outlier.
     if ((i > 0 || std::abs(deviation) > std::log(harmless_factor)) &&
         matters(deviation, levels[j].variable / levels[i].variable) &&
         significant(all, law.residual, n - 1 - parameters, rejection / static_cast<double>(n))) {

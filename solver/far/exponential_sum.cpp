@@ -33,7 +33,7 @@ Vector distances(long double ratio, Eigen::Index count) {
   return s;
 }
 
-/// Rates, the most telling first, and the factorization of their terms.
+/// Rates, in the order in which they improve the fit the most, and the factorization of their terms.
 struct Candidates {
   explicit Candidates(long double ratio) : s(distances(ratio, 96)), rates(200) {
     const long double lowest = 0.1L / ratio, highest = 30.0L;

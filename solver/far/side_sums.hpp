@@ -78,8 +78,8 @@ class SideSums {
     PairSums<s, C> pair_sums(range_, rows_, outermost_, start);
     Polynomials sum;
     sum.clear();
-    // The reciprocals of the box beside the particles' enter a box later than its polynomials: their expansions need a
-    // box between.
+    // The reciprocals of a box enter one step later than its polynomials: their expansions hold only for particles with
+    // at least one box in between.
     double beside[Inner::powers_size];
     bool has_beside = false;
 
@@ -108,8 +108,8 @@ class SideSums {
           }
           outer.drop_reciprocals();
         };
-        // A box holds the cells that end in it, so that none reaches across the breakpoint from the last one. After a
-        // gap many boxes enter at once, more than there is room for, and those that are old leave again.
+        // Here a box holds the cells that end in it, so that none of its cells lies across the breakpoint. After a gap
+        // between particles many boxes enter in one step; as there is not room for all, the oldest leave in between.
         double powers[decltype(outer)::powers_size];
         while (boxes.first_cell(outer.end() + 1) < boxes.first(B - K / 2)) {
           outer.enter(boxes.first_cell(outer.end()), boxes.first_cell(outer.end() + 1), B, sum, powers);
@@ -119,8 +119,8 @@ class SideSums {
         }
         drop_outer();
       }
-      // Moved sums lose digits by the distance moved, and by what has come from afar and gone; ever so often, and after
-      // a gap, they are formed anew.
+      // Each move of a sum to the next box, and each box that is subtracted, costs some digits: every K/2 boxes, and
+      // after a gap, the sums are formed anew.
       if (B % (K / 2) == 0 || entered > 1) {
         sum.clear();
         inner.add_to(B, sum);

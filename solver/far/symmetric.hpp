@@ -37,7 +37,7 @@ class FarSymmetric {
     const std::int64_t left_pairs =
         SideSums<+1, Sums>(range_, rows, memory_).run(begin, end, [&](const auto& vector, const auto& sums) {
           const Totals totals = totals_of(vector, sums, -1.0);
-          // In walking order, what stands behind those that are meant is written over.
+          // Lanes beyond the vector's count write what the next vector in walking order writes over.
           for (int k = 0; k < kept; ++k) store(left_[k] + vector.lowest_index(), totals.value[k]);
         });
     return left_pairs +

@@ -74,7 +74,7 @@ void require_bounded(Judgement& judgement, double error, double solution) {
 
 namespace {
 
-/// The errors of levels whose differences to a reference these are, if errors are of this order.
+/// The errors that belong to these differences to a reference, if errors are of this order.
 std::vector<Level> errors_for(double order, std::vector<Level> differences, double reference) {
   for (Level& level : differences) {
     if (order > 0.0 && reference < level.variable) level.error /= 1.0 - std::pow(reference / level.variable, order);
@@ -100,7 +100,7 @@ Judgement judge_errors(const std::vector<Level>& levels, const std::optional<Ref
   double order = theory_order;
   Judgement judgement = judged_for(order);
   if (!meets(judgement.verdict, Verdict::confirmed) && std::isfinite(judgement.order)) {
-    // Each round takes the order that the last one has found; the orders approach one another by half and faster.
+    // Each round assumes the order that the last one has found. Their distance at least halves from round to round.
     constexpr int most = 60;
     constexpr double close = 1e-4;
     double assumed = order;
@@ -112,7 +112,7 @@ Judgement judge_errors(const std::vector<Level>& levels, const std::optional<Ref
     if (std::abs(found.order - assumed) <= close) {
       order = assumed;
       judgement = found;
-      // The order found follows the one that is assumed, so that what is not known of the one adds to the other.
+      // The order found depends on the one assumed, which is as uncertain: this widens the interval.
       constexpr double shift = 0.01;
       const double follows = (judged_for(assumed + shift).order - found.order) / shift;
       const double wider = follows > 0.0 && follows < 1.0 ? 1.0 / (1.0 - follows) : 1.0;

@@ -145,7 +145,7 @@ void read_coverage(const Table& root, Study& study) {
   for (const double q : {0.5, 2.0}) {
     const std::string name = fmt::format("two terms, correction v^{}", q);
     measure("coverage: reported interval, " + name, [=] {
-      return coverage_finding("reported interval", name, of_class("two terms", interval_coverage(trials, seed, q)));
+      return coverage_finding("reported interval", name, interval_coverage(trials, seed, q, "two terms"));
     });
   }
   measure("coverage: interval of the power law, uncorrected (control)", [=] {

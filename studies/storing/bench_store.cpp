@@ -112,6 +112,7 @@ json case_json(const BenchCase& one) {
               {"steps", one.result.steps},
               {"stages", one.c->integrator->stage_count()},
               {"threads", one.threads},
+              {"form", one.form},
               {"error_linf", one.result.error_linf},
               {"failure", one.result.failure.empty() ? one.result.blow_up : one.result.failure}};
   for_each_count(one.result, [&](const char* name, std::int64_t count) { out["work"][name] = count; });

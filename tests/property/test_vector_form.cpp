@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -270,6 +272,22 @@ std::vector<Case> far_cases(const std::shared_ptr<const Scene>& scene) {
 }
 
 }  // namespace
+
+TEST_CASE("A case is run in the first form that takes it", "[vector]") {
+  const auto form = [](const Case& c) { return plan(c).form->name; };
+  const auto scene = random_scene(5);
+  for (Case c : far_cases(scene)) {
+    CAPTURE(c.key());
+    CHECK(form(c) == "vector with far sums");
+    c.delta = 0.01 * scene->period();
+    CHECK(form(c) == "vector");
+    c.integrator = std::find_if(std::begin(integrators), std::end(integrators), std::mem_fn(&Integrator::implicit));
+    CHECK(form(c) == "readable with implicit steps");
+    c.integrator = &forward_euler;
+    c.readable = true;
+    CHECK(form(c) == "readable");
+  }
+}
 
 TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
   const auto scene = random_scene(5);

@@ -1,5 +1,7 @@
 #include "studies/cases/subject.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,13 +15,27 @@ std::vector<std::vector<double>> Subject::positions(std::int64_t N) const {
   return all;
 }
 
-Finding Subject::finding(std::string statement, std::string claim, std::string check, std::string quantity,
-                         Test test) const {
+std::vector<Coordinate> scheme_coordinates(const SchemeChoice& scheme, double mu, bool standing) {
+  std::vector<Coordinate> all = {{"model", static_cast<double>(scheme.model), fmt::format("model {}", scheme.model)},
+                                 {"kernel", scheme.kernel.label()}};
+  if (!standing) all.emplace_back("divergence", scheme.nonlocal_divergence ? "nonlocal" : "local");
+  if (scheme.model == 2) all.emplace_back("mu", mu, fmt::format("mu = {}", mu));
+  if (!scheme.control.empty()) all.emplace_back("control", scheme.control);
+  for (Coordinate& one : all) one.spoken = false;
+  return all;
+}
+
+Check Subject::check(std::string statement, std::string claim, const std::vector<Coordinate>& conditions,
+                     std::string quantity, Test test) const {
+  std::vector<Coordinate> coordinates = {{"arrangement", std::string(name_of(arrangement))}};
+  coordinates.insert(coordinates.end(), conditions.begin(), conditions.end());
+  const std::vector<Coordinate> of_scheme = scheme_coordinates(scheme, mu, scene->standing());
+  coordinates.insert(coordinates.end(), of_scheme.begin(), of_scheme.end());
   const Verdict good = test == Test::order ? Verdict::confirmed : Verdict::holds;
   return {.statement = std::move(statement),
           .claim = std::move(claim),
           .subject = scheme_label(scheme, scene->standing()),
-          .check = std::string(name_of(arrangement)) + ", " + check,
+          .coordinates = std::move(coordinates),
           .quantity = std::move(quantity),
           .test = test,
           .variable = "h",

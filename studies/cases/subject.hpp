@@ -27,8 +27,9 @@ struct Subject {
   double t() const { return arrangement == Arrangement::moved ? scene->T() : 0.0; }
   /// Every arrangement of N particles that is examined.
   std::vector<std::vector<double>> positions(std::int64_t N) const;
-  /// A finding on this subject, without points.
-  Finding finding(std::string statement, std::string claim, std::string check, std::string quantity, Test test) const;
+  /// A check of this subject: its coordinates are the arrangement, the given ones, and those of the scheme, unspoken.
+  Check check(std::string statement, std::string claim, const std::vector<Coordinate>& conditions, std::string quantity,
+              Test test = Test::bounds) const;
 };
 
 /// Numbers of particles and horizons, delta = ratio h with h = period / N, and horizons that stay fixed.
@@ -39,6 +40,10 @@ struct Sweep {
   /// The horizons at N particles; those of half the period and more, which no scheme takes, are left out.
   std::vector<double> deltas(std::int64_t N, double period) const;
 };
+
+/// Model, kernel, divergence form, viscosity bound and mistake of a scheme as coordinates, unspoken: the label of the
+/// scheme says them, but for the viscosity bound.
+std::vector<Coordinate> scheme_coordinates(const SchemeChoice& scheme, double mu, bool standing);
 
 /// True if `value` is farther out than `than`. NaN is the worst.
 inline bool worse(double value, double than) { return std::isnan(value) || value > than; }

@@ -128,13 +128,10 @@ double estimate_error(const Subject& subject, const LemmaEstimate& estimate, con
   return ErrorAt(subject, estimate, delta)(x);
 }
 
-Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep) {
-  const char* const per = estimate.nonlocal ? "h" : "max(h, delta)";
-  Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), "whatever delta",
-                                    fmt::format("{} / {}", estimate.quantity, per), Test::bounds);
-  if (subject.scheme.model == 2 && estimate.nonlocal) {
-    finding.remark = "C h holds whatever delta, so the printed second term is not needed";
-  }
+namespace {
+
+void measure_whatever_delta(Finding& finding, const Subject& subject, const LemmaEstimate& estimate,
+                            const Sweep& sweep) {
   const FieldBounds fields = field_bounds(*subject.scene, subject.t());
   for (const std::int64_t N : sweep.N) {
     Point point{.N = N};
@@ -151,59 +148,74 @@ Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& 
     }
     finding.points.push_back(point);
   }
-  judge(finding);
-  return finding;
 }
 
-Finding consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path) {
-  Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), path.name,
-                                    std::string(estimate.quantity), path.order ? Test::order : Test::rate);
-  finding.theory_order = path.order.value_or(1.0);
-  const bool settles = finding.theory_order == 0.0, in_h = estimate.nonlocal || settles;
-  finding.variable = in_h ? "h" : "max(h,delta)";
+/// What an estimate is measured by: its statement and quantity.
+Check check_of(const Subject& subject, const LemmaEstimate& estimate, const std::string& claim,
+               const Coordinate& condition, Test test) {
+  return subject.check(std::string(estimate.statement), claim, {condition}, std::string(estimate.quantity), test);
+}
+
+}  // namespace
+
+Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep) {
+  Check check = check_of(subject, estimate, claim(subject, estimate), {"delta", "whatever delta"}, Test::bounds);
+  check.quantity += estimate.nonlocal ? " / h" : " / max(h, delta)";
+  if (subject.scheme.model == 2 && estimate.nonlocal) {
+    check.remark = "C h holds whatever delta, so the printed second term is not needed";
+  }
+  return {check, [=](Finding& finding) { measure_whatever_delta(finding, subject, estimate, sweep); }};
+}
+
+Measurement consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path) {
+  Check check =
+      check_of(subject, estimate, claim(subject, estimate), {"path", path.name}, path.order ? Test::order : Test::rate);
+  check.coordinates.push_back(unspoken({"delta", path.delta.text()}));
+  check.theory_order = path.order.value_or(1.0);
+  const bool settles = check.theory_order == 0.0, in_h = estimate.nonlocal || settles;
+  check.variable = in_h ? "h" : "max(h,delta)";
   if (settles) {
-    finding.claim = "does not vanish as h -> 0 at a fixed delta";
-    finding.promised = Verdict::stagnates;
+    check.claim = "does not vanish as h -> 0 at a fixed delta";
+    check.promised = Verdict::stagnates;
   }
-  finding.expected = path.expect.value_or(finding.promised);
-  for (const std::int64_t N : path.N) {
-    const double count = static_cast<double>(N), delta = path.delta({subject.scene->period() / count, count});
-    const Worst at = worst(subject, estimate, N, delta);
-    finding.points.push_back({N, at.h, delta, in_h ? at.h : std::max(at.h, delta), at.error});
-  }
-  judge(finding);
-  return finding;
+  check.expected = path.expect.value_or(check.promised);
+  return {check, [=](Finding& finding) {
+            for (const std::int64_t N : path.N) {
+              const double count = static_cast<double>(N), delta = path.delta({subject.scene->period() / count, count});
+              const Worst at = worst(subject, estimate, N, delta);
+              finding.points.push_back({N, at.h, delta, in_h ? at.h : std::max(at.h, delta), at.error});
+            }
+          }};
 }
 
-Finding order_below_spacing(const Subject& subject, const LemmaEstimate& estimate, const std::vector<std::int64_t>& N,
-                            double ratio) {
+Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& estimate,
+                                const std::vector<std::int64_t>& N, double ratio) {
   const bool smooth = subject.arrangement != Arrangement::jittered;
-  Finding finding = subject.finding(std::string(estimate.statement), "order in h where delta << h",
-                                    fmt::format("delta = {:g}h", ratio), std::string(estimate.quantity),
-                                    smooth ? Test::order : Test::rate);
-  finding.theory_order = smooth ? 2.0 : 1.0;
-  finding.remark = smooth ? "gaps differ by O(h^2): the nearest neighbors give central differences, O(h^2), and the "
-                            "nonlocal operator is within O(delta^2) of their limit"
-                          : "gaps differ by O(h): so do the difference quotients of the nearest neighbors from their "
-                            "limit";
-  for (const std::int64_t count : N) {
-    const double delta = ratio * subject.scene->period() / static_cast<double>(count);
-    const Worst at = worst(subject, estimate, count, delta);
-    finding.points.push_back({count, at.h, delta, at.h, at.error});
-  }
-  judge(finding);
-  return finding;
+  Check check =
+      check_of(subject, estimate, "order in h where delta << h", at_ratio(ratio), smooth ? Test::order : Test::rate);
+  check.theory_order = smooth ? 2.0 : 1.0;
+  check.remark = smooth ? "gaps differ by O(h^2): the nearest neighbors give central differences, O(h^2), and the "
+                          "nonlocal operator is within O(delta^2) of their limit"
+                        : "gaps differ by O(h): so do the difference quotients of the nearest neighbors from their "
+                          "limit";
+  return {check, [=](Finding& finding) {
+            for (const std::int64_t count : N) {
+              const double delta = ratio * subject.scene->period() / static_cast<double>(count);
+              const Worst at = worst(subject, estimate, count, delta);
+              finding.points.push_back({count, at.h, delta, at.h, at.error});
+            }
+          }};
 }
 
-Finding growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
-                             const std::vector<double>& ratios) {
+Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
+                                 const std::vector<double>& ratios) {
   const char* const term = estimate.viscous ? "h^3/delta^2" : "h^2/delta";
-  Finding finding = subject.finding(std::string(estimate.statement), fmt::format("grows like {} as delta -> 0", term),
-                                    "delta -> 0 at fixed h", std::string(estimate.quantity), Test::order);
-  finding.variable = "delta";
-  finding.promised = Verdict::diverges;
-  finding.expected = Verdict::stagnates;
-  finding.remark = fmt::format(
+  Check check = check_of(subject, estimate, fmt::format("grows like {} as delta -> 0", term),
+                         {"delta", "delta -> 0 at fixed h"}, Test::order);
+  check.variable = "delta";
+  check.promised = Verdict::diverges;
+  check.expected = Verdict::stagnates;
+  check.remark = fmt::format(
       "not sharp: scheme and nonlocal operator are both within O(max(h, delta)) of the PDE's, so the error is O(h) "
       "where "
       "delta < h and {} is not attained",
@@ -211,13 +223,13 @@ Finding growth_below_spacing(const Subject& subject, const LemmaEstimate& estima
   std::vector<double> below(ratios);
   std::erase_if(below, [](double ratio) { return ratio > 0.3; });
   std::sort(below.rbegin(), below.rend());
-  for (const double ratio : below) {
-    const double delta = ratio * subject.scene->period() / static_cast<double>(N);
-    const Worst at = worst(subject, estimate, N, delta);
-    finding.points.push_back({N, at.h, delta, delta, at.error});
-  }
-  judge(finding);
-  return finding;
+  return {check, [=](Finding& finding) {
+            for (const double ratio : below) {
+              const double delta = ratio * subject.scene->period() / static_cast<double>(N);
+              const Worst at = worst(subject, estimate, N, delta);
+              finding.points.push_back({N, at.h, delta, delta, at.error});
+            }
+          }};
 }
 
 }  // namespace acstudy

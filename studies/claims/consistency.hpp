@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/reading/study_parts.hpp"
 
@@ -28,20 +29,20 @@ double estimate_error(const Subject& subject, const LemmaEstimate& estimate, con
 /// Uniformity in delta: whatever the horizon of the sweep, the error divided by h (by max(h, delta) against the PDE)
 /// is at most a constant that is derived from the fields of the scene, not fitted; see docs/equations.md. A point per
 /// N, at the horizon where the error comes closest to its bound.
-Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep);
+Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep);
 
 /// Errors along a path: they vanish with at least order 1, or with path.order if that is given.
 /// @pre path.nonlocal_source == estimate.nonlocal
-Finding consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path);
+Measurement consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path);
 
 /// Sharpness of Lemma 3.2 where delta = ratio h, ratio < 1/2: order 2 in h; on jittered particles
 /// at least 1.
-Finding order_below_spacing(const Subject& subject, const LemmaEstimate& estimate, const std::vector<std::int64_t>& N,
-                            double ratio);
+Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& estimate,
+                                const std::vector<std::int64_t>& N, double ratio);
 
 /// Sharpness of Lemma 3.2 as delta goes to zero at fixed h: whether errors grow as the printed h^2/delta and
 /// h^3/delta^2 would have it. They do not.
-Finding growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
-                             const std::vector<double>& ratios);
+Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
+                                 const std::vector<double>& ratios);
 
 }  // namespace acstudy

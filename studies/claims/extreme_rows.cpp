@@ -10,29 +10,15 @@
 
 namespace acstudy {
 
-void ExtremeRows::add(Finding finding, std::function<void(Finding&)> measure) {
-  std::string name = finding.label();
-  if (!labels_.insert(name).second) throw std::logic_error("two rows have the label " + name);
-  measurements_.push_back({std::move(name), [prepared = std::move(finding), measure = std::move(measure)](const auto&) {
-                             Finding measured = prepared;
-                             try {
-                               measure(measured);
-                             } catch (const std::domain_error& error) {
-                               measured.failure = error.what();
-                             } catch (const std::runtime_error& error) {
-                               measured.failure = error.what();
-                             }
-                             judge(measured);
-                             return measured;
-                           }});
+void ExtremeRows::add(Check check, std::function<void(Finding&)> measure) {
+  measurements_.emplace_back(std::move(check), std::move(measure));
 }
 
-void ExtremeRows::add_control(Finding finding, const std::string& why, std::function<void(Finding&)> measure,
+void ExtremeRows::add_control(Check check, const std::string& why, std::function<void(Finding&)> measure,
                               Verdict expected) {
-  if (!controls_.insert(finding.claim + finding.label()).second) return;
-  finding.expected = expected;
-  finding.remark = "negative control: " + why;
-  add(std::move(finding), std::move(measure));
+  if (!controls_.insert(check.claim + check.label()).second) return;
+  check.be_control(why, expected);
+  add(std::move(check), std::move(measure));
 }
 
 std::vector<Measurement> extreme_rows(const Extremes& extremes) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "solver/time/steps.hpp"
+#include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/claims/extremes.hpp"
 #include "studies/running/run_case.hpp"
@@ -24,22 +25,20 @@ namespace acstudy {
 
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// The list of measurements. What goes wrong numerically while one is taken becomes its finding's failure.
+/// The list of measurements.
 class ExtremeRows {
  public:
-  /// @param finding  without points
-  /// @param measure  gives it its points
-  /// @throws std::logic_error if another one has the same label
-  void add(Finding finding, std::function<void(Finding&)> measure);
+  /// @param measure  gives a finding its points
+  void add(Check check, std::function<void(Finding&)> measure);
   /// The same as a negative control; `why` it must fail. One that is there already is not added again: the schemes of
   /// both divergences have the same mistakes.
-  void add_control(Finding finding, const std::string& why, std::function<void(Finding&)> measure,
+  void add_control(Check check, const std::string& why, std::function<void(Finding&)> measure,
                    Verdict expected = Verdict::violated);
 
   std::vector<Measurement> take() { return std::move(measurements_); }
 
  private:
-  std::set<std::string> labels_, controls_;
+  std::set<std::string> controls_;
   std::vector<Measurement> measurements_;
 };
 
@@ -55,6 +54,11 @@ void add_rows_of_mass(ExtremeRows& rows, const Extremes& extremes);    ///< mass
 std::shared_ptr<const Scene> scene_with(const std::string& c, const std::optional<std::string>& b = std::nullopt,
                                         const std::string& u = "sin(2*pi*(x - t))");
 std::shared_ptr<const Scene> scene_named(std::string_view name);
+
+/// "c = sin(2*pi*x)"
+inline Coordinate velocity_is(const std::string& c) { return {"c", c, "c = " + c}; }
+/// "scene lagrangian"
+inline Coordinate on_scene(const std::string& name) { return {"scene", name, "scene " + name}; }
 
 /// A scheme on a scene, with the viscosity bound of the scene if it is Model II.
 Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene>& scene,

@@ -12,8 +12,10 @@ namespace acstudy {
 
 namespace {
 
-/// A finding of another kind of study as a row of the table.
-void adopt(Finding& row, const Finding& measured) {
+/// A measurement of another kind of study as a row of the table.
+void adopt(Finding& row, const Measurement& measurement) {
+  const Finding measured = measurement.take();
+  row.failure = measured.failure;
   row.points.insert(row.points.end(), measured.points.begin(), measured.points.end());
   row.variable = measured.variable;
 }
@@ -28,13 +30,12 @@ std::string numbers(std::int64_t most) { return fmt::format("N = 3 to {}", most)
 void add_few_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject subject = subject_on(scheme, scene_with("1"));
   const Sweep sweep{{std::begin(few), std::end(few)}, {0.3, 1.0, 1.3}, {largest_horizon(*subject.scene)}};
-  const auto named = [&](const std::string& check) {
-    return subject.finding(numbers(most), "N = 3, 4, 5, 7, c constant: a step at CFL 1 has the max norm 1", check,
-                           "max norm of I + dt R", Test::bounds);
+  const auto named = [&](double cfl) {
+    return subject.check(numbers(most), "N = 3, 4, 5, 7, c constant: a step at CFL 1 has the max norm 1",
+                         {{"N", "3 to 7", "N = 3 to 7"}, at_cfl(cfl)}, "max norm of I + dt R");
   };
-  rows.add(named("N = 3 to 7, CFL 1"),
-           [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected)); });
-  rows.add_control(named("N = 3 to 7, CFL 1.5"), "beyond the condition",
+  rows.add(named(1.0), [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected)); });
+  rows.add_control(named(1.5), "beyond the condition",
                    [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected, 1.5)); });
 }
 
@@ -67,14 +68,14 @@ void run_few(Finding& row, const Subject& subject, double cfl) {
 void add_few_moving_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject carried = subject_on(scheme, scene_with("1", "1/2"));
   const Subject paper = subject_on(scheme, scene_named("lee-du-2019"));
-  const auto named = [most](const Subject& subject, const std::string& check) {
-    return subject.finding(numbers(most),
-                           "N = 3, 4, 5, 7, moving: max |u| grows by at most exp(T (||c_hat'|| + ||b'||))", check,
-                           "max |u(T)| / max |u(0)|", Test::bounds);
+  const auto named = [most](const Subject& subject, const std::vector<Coordinate>& conditions) {
+    return subject.check(numbers(most), "N = 3, 4, 5, 7, moving: max |u| grows by at most exp(T (||c_hat'|| + ||b'||))",
+                         conditions, "max |u(T)| / max |u(0)|");
   };
-  rows.add(named(carried, "c = 1, b = 1/2, CFL 1"), [=](Finding& row) { run_few(row, carried, 1.0); });
-  rows.add(named(paper, "scene lee-du-2019"), [=](Finding& row) { run_few(row, paper, 1.0); });
-  rows.add_control(named(carried, "c = 1, b = 1/2, CFL 1.5"), "beyond the condition",
+  const Coordinate half = {"b", "1/2", "b = 1/2"};
+  rows.add(named(carried, {velocity_is("1"), half, at_cfl(1.0)}), [=](Finding& row) { run_few(row, carried, 1.0); });
+  rows.add(named(paper, {on_scene("lee-du-2019")}), [=](Finding& row) { run_few(row, paper, 1.0); });
+  rows.add_control(named(carried, {velocity_is("1"), half, at_cfl(1.5)}), "beyond the condition",
                    [=](Finding& row) { run_few(row, carried, 1.5); });
 }
 
@@ -105,20 +106,19 @@ void take_ten_steps(Finding& row, const Subject& subject, std::int64_t N) {
 void add_many_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject subject = subject_on(scheme, scene_with("1"));
   const std::int64_t fewer = std::min<std::int64_t>(most, 10'000);
-  const auto norm_of = [&](const std::string& check) {
-    return subject.finding(numbers(most), fmt::format("N = {}, c constant: a step at CFL 1 has the max norm 1", most),
-                           check, "max norm of I + dt R", Test::bounds);
+  const auto norm_of = [&](double cfl) {
+    return subject.check(numbers(most), fmt::format("N = {}, c constant: a step at CFL 1 has the max norm 1", most),
+                         {at_ratio(1.45), at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto norm = [subject](Finding& row, std::int64_t N, double cfl) {
     adopt(row, step_is_bounded(subject, {{N}, {1.45}, {}}, StepCondition::corrected, cfl));
   };
-  rows.add(norm_of("delta = 1.45h, CFL 1"), [=](Finding& row) { norm(row, most, 1.0); });
-  rows.add_control(norm_of("delta = 1.45h, CFL 1.5"), "beyond the condition",
-                   [=](Finding& row) { norm(row, fewer, 1.5); });
+  rows.add(norm_of(1.0), [=](Finding& row) { norm(row, most, 1.0); });
+  rows.add_control(norm_of(1.5), "beyond the condition", [=](Finding& row) { norm(row, fewer, 1.5); });
 
   const auto steps_of = [&](const Subject& one) {
-    return one.finding(numbers(most), fmt::format("N = {}: ten steps are off by at most ten truncation errors", most),
-                       "delta = 1.45h, CFL 1/4", "max |u - exact|", Test::bounds);
+    return one.check(numbers(most), fmt::format("N = {}: ten steps are off by at most ten truncation errors", most),
+                     {at_ratio(1.45), {"cfl", 0.25, "CFL 1/4"}}, "max |u - exact|");
   };
   rows.add(steps_of(subject), [=](Finding& row) { take_ten_steps(row, subject, most); });
   const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
@@ -158,40 +158,29 @@ void compare_rates_below(Finding& row, const Subject& subject, const std::vector
 
 void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
   const Subject subject = subject_on(scheme, scene_named("lee-du-2019"), arrangement);
-  const auto same = [&](const std::string& check) {
-    return subject.finding(horizons,
-                           scheme.model == 1 ? "below every gap the rates are the same, bit by bit, whatever delta"
-                                             : "below every gap the rates are the same to round-off, whatever delta",
-                           "rates, " + check, "max |rate - rate at 0.9 h_min| / sum of |terms|", Test::bounds);
+  const Coordinate below = {"delta/h_min", "1e-12 to 1/2", "delta = 1e-12 to 1/2 h_min"},
+                   above = {"delta/h_min", 4.0, "delta = 4 h_min"};
+  const auto same = [&](const Coordinate& horizon) {
+    return subject.check(horizons,
+                         scheme.model == 1 ? "below every gap the rates are the same, bit by bit, whatever delta"
+                                           : "below every gap the rates are the same to round-off, whatever delta",
+                         {{"of", "rates"}, horizon}, "max |rate - rate at 0.9 h_min| / sum of |terms|");
   };
-  rows.add(same("delta = 1e-12 to 1/2 h_min"),
-           [=](Finding& row) { compare_rates_below(row, subject, below_every_gap); });
-  rows.add_control(same("delta = 4 h_min"), "farther neighbors count",
+  rows.add(same(below), [=](Finding& row) { compare_rates_below(row, subject, below_every_gap); });
+  rows.add_control(same(above), "farther neighbors count",
                    [=](Finding& row) { compare_rates_below(row, subject, {4.0}); });
 
-  const auto difference = [&](const std::string& check) {
-    return subject.finding(horizons,
-                           scheme.model == 1 ? "below every gap Model I is the upwind difference (Remark 2.1)"
-                                             : "below every gap Model II is the central difference with viscosity",
-                           "matrix, " + check, "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
+  const auto difference = [&](const Coordinate& horizon) {
+    return subject.check(horizons,
+                         scheme.model == 1 ? "below every gap Model I is the upwind difference (Remark 2.1)"
+                                           : "below every gap Model II is the central difference with viscosity",
+                         {{"of", "matrix"}, horizon}, "max |row - that of the difference| h_min / max|c_hat|");
   };
-  rows.add(difference("delta = 1e-12 to 1/2 h_min"), [=](Finding& row) {
+  rows.add(difference(below), [=](Finding& row) {
     for (const double ratio : below_every_gap) adopt(row, nearest_neighbor_rows(subject, {48}, ratio));
   });
-  rows.add_control(difference("delta = 4 h_min"), "farther neighbors count",
+  rows.add_control(difference(above), "farther neighbors count",
                    [=](Finding& row) { adopt(row, nearest_neighbor_rows(subject, {48}, 4.0)); });
-}
-
-Finding bare_finding(const std::string& statement, const std::string& claim, const std::string& check,
-                     const std::string& quantity) {
-  return {.statement = statement,
-          .claim = claim,
-          .subject = "particles",
-          .check = check,
-          .quantity = quantity,
-          .test = Test::bounds,
-          .promised = Verdict::holds,
-          .expected = Verdict::holds};
 }
 
 void add_refused_horizons(ExtremeRows& rows) {
@@ -202,8 +191,12 @@ void add_refused_horizons(ExtremeRows& rows) {
     }
     row.variable = "delta";
   };
-  const auto named = [](const std::string& check) {
-    return bare_finding(horizons, "half the period and more, 0 and less are refused", check, "1 if refused");
+  const auto named = [](const std::string& interval) {
+    return Check{.statement = horizons,
+                 .claim = "half the period and more, 0 and less are refused",
+                 .subject = "particles",
+                 .coordinates = {{"delta", interval}},
+                 .quantity = "1 if refused"};
   };
   rows.add(named("not between 0 and period/2"), [=](Finding& row) {
     const double inf = std::numeric_limits<double>::infinity();
@@ -218,12 +211,12 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
   // An odd number: no particle stands where the largest horizon ends.
   const Sweep sweep{{63}, {}, {largest_horizon(*subject.scene)}};
-  const std::string check = "delta just below period/2";
+  const Coordinate largest = {"delta", "just below period/2", "delta just below period/2"};
 
   const auto moment = [&](const Subject& one) {
-    return one.finding(horizons,
-                       scheme.model == 1 ? "at the largest, sum d_k W_k = 1" : "at the largest, sum z_k W_k / N_j = 1",
-                       check + ", first moment", "max |sum - 1|", Test::bounds);
+    return one.check(horizons,
+                     scheme.model == 1 ? "at the largest, sum d_k W_k = 1" : "at the largest, sum z_k W_k / N_j = 1",
+                     {largest, {"of", "first moment"}}, "max |sum - 1|");
   };
   rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, sweep)); });
   const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
@@ -231,8 +224,8 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
                    [=](Finding& row) { adopt(row, first_moment_is_one(wrong, sweep)); });
 
   const auto norm = [&](double cfl) {
-    return subject.finding(horizons, "at the largest, c constant: a step at CFL 1 has the max norm 1",
-                           fmt::format("{}, CFL {:g}", check, cfl), "max norm of I + dt R", Test::bounds);
+    return subject.check(horizons, "at the largest, c constant: a step at CFL 1 has the max norm 1",
+                         {largest, at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto step = [=](Finding& row, double cfl) {
     adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected, cfl));
@@ -286,13 +279,14 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
 void add_singular_kernels(ExtremeRows& rows, const SchemeChoice& scheme) {
   const Subject subject = subject_on(scheme, scene_named("lee-du-2019"));
   const auto named = [&](const std::string& claim, Test test, const std::string& to) {
-    Finding finding = subject.finding(
-        exponents, claim,
-        fmt::format("delta = 4.5h, alpha = 1.9 to 1.999999, {}{} difference", test == Test::order ? "" : "bound, ", to),
-        fmt::format("max |rate - that of the {} difference|", to), test);
-    finding.subject.replace(finding.subject.rfind("power"), std::string::npos, "power(alpha)");
-    finding.theory_order = 1.0;
-    return finding;
+    std::vector<Coordinate> conditions = {at_ratio(4.5), {"alpha", "1.9 to 1.999999", "alpha = 1.9 to 1.999999"}};
+    if (test == Test::bounds) conditions.emplace_back("test", "bound");
+    conditions.emplace_back("to", to, to + " difference");
+    Check check =
+        subject.check(exponents, claim, conditions, fmt::format("max |rate - that of the {} difference|", to), test);
+    check.subject.replace(check.subject.rfind("power"), std::string::npos, "power(alpha)");
+    check.theory_order = 1.0;
+    return check;
   };
   const std::string to_upwind = "Model I goes to the upwind difference like 2 - alpha";
   rows.add(named(to_upwind, Test::order, "upwind"), [=](Finding& row) { approach_upwind(row, subject, true); });

@@ -80,10 +80,10 @@ void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arr
                 classical = mistaken(subject, "downwind", "SPH sum");
   const auto add = [&](const std::string& claim, const std::string& quantity, Followed followed) {
     const auto named = [&](const Subject& one) {
-      return one.finding(
-          statement, claim,
-          fmt::format("{}, 150 steps at CFL 1 and 1/2", followed == Followed::range ? "range" : "total variation"),
-          quantity, Test::bounds);
+      return one.check(statement, claim,
+                       {{"of", followed == Followed::range ? "range" : "total variation"},
+                        {"cfl", "1 and 1/2", "150 steps at CFL 1 and 1/2"}},
+                       quantity);
     };
     rows.add(named(subject), [=](Finding& row) { carry(row, subject, followed); });
     rows.add_control(named(wrong), "a scheme that is not monotone", [=](Finding& row) { carry(row, wrong, followed); });
@@ -125,18 +125,19 @@ void add_orders(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arran
   for (const Shape& shape : shapes) {
     for (const double ratio : {0.4, 3.5}) {
       const auto named = [&](double order) {
-        Finding finding = subject.finding(
+        Check check = subject.check(
             statement, fmt::format("the {} has order {} in L1", shape.name, shape.order == 1.0 ? "1" : "1/2"),
-            fmt::format("{}, delta = {:g}h, CFL 1/2", shape.name, ratio), "L1 error at T = 1/4", Test::order);
-        finding.theory_order = order;
-        return finding;
+            {{"shape", shape.name}, at_ratio(ratio), {"cfl", 0.5, "CFL 1/2"}}, "L1 error at T = 1/4", Test::order);
+        check.theory_order = order;
+        if (order != shape.order)
+          check.coordinates.emplace_back("order", order, order == 1.0 ? "asked for order 1" : "asked for order 1/2");
+        return check;
       };
       rows.add(named(shape.order), [=](Finding& row) { refine(row, subject, shape, ratio); });
       if (ratio > 1.0 || arrangement != Arrangement::uniform) continue;
-      Finding other = named(shape.order == 1.0 ? 0.5 : 1.0);
-      other.check += shape.order == 1.0 ? ", asked for order 1/2" : ", asked for order 1";
       rows.add_control(
-          other, "it is not the other one's order", [=](Finding& row) { refine(row, subject, shape, ratio); },
+          named(shape.order == 1.0 ? 0.5 : 1.0), "it is not the other one's order",
+          [=](Finding& row) { refine(row, subject, shape, ratio); },
           shape.order == 1.0 ? Verdict::above : Verdict::below);
     }
   }

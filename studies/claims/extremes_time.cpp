@@ -40,13 +40,13 @@ void add_no_time(ExtremeRows& rows, const SchemeChoice& scheme) {
     add("L1 error", result.error_l1);
     add("L2 error", result.error_l2);
   };
-  const auto named = [&](const std::string& check) {
+  const auto named = [&](const std::string& T) {
     return subject_on(scheme, paper_to("0"))
-        .finding("T = 0", "no step is taken, and the initial values come back without an error", check,
-                 "steps, dt, change, errors", Test::bounds);
+        .check("T = 0", "no step is taken, and the initial values come back without an error", {{"T", T, "T = " + T}},
+               "steps, dt, change, errors");
   };
-  rows.add(named("T = 0"), [=](Finding& row) { end_at_start(row, "0"); });
-  rows.add_control(named("T = 1e-9"), "a time, however short", [=](Finding& row) { end_at_start(row, "1e-9"); });
+  rows.add(named("0"), [=](Finding& row) { end_at_start(row, "0"); });
+  rows.add_control(named("1e-9"), "a time, however short", [=](Finding& row) { end_at_start(row, "1e-9"); });
 }
 
 // ------------------------------------------------------------------------------------------------------------ one step
@@ -81,10 +81,10 @@ void step_by_hand(Finding& row, const SchemeChoice& scheme, std::int64_t times) 
 }
 
 void add_one_step(ExtremeRows& rows, const SchemeChoice& scheme) {
-  const auto named = [&](const std::string& check) {
+  const auto named = [&](const std::string& steps) {
     return subject_on(scheme, paper_to("1/100"))
-        .finding("one step", "u(T) = u(0) + T (rate + f), where the step is longer than T", check,
-                 "max |u(T) - by hand| / sum of |terms|", Test::bounds);
+        .check("one step", "u(T) = u(0) + T (rate + f), where the step is longer than T", {{"steps", steps}},
+               "max |u(T) - by hand| / sum of |terms|");
   };
   rows.add(named("step = 10 T"), [=](Finding& row) { step_by_hand(row, scheme, 1); });
   rows.add_control(named("two steps"), "two steps are not one", [=](Finding& row) { step_by_hand(row, scheme, 2); });
@@ -152,22 +152,21 @@ void predict_growth(Finding& row, const Subject& subject, bool sawtooth) {
 void add_cfl(ExtremeRows& rows, const SchemeChoice& scheme) {
   const Subject subject = subject_on(scheme, scene_with("1"));
   const std::vector<double> ratios = scheme.model == 1 ? std::vector<double>{0.5, 3.5} : std::vector<double>{0.5};
-  const std::string check = scheme.model == 1 ? "delta = 0.5h, 3.5h" : "delta = 0.5h";
-  const auto norm = [&](const std::string& claim) {
-    return subject.finding(cfl_numbers, claim, check, "max norm of I + dt R", Test::bounds);
-  };
-  const std::string predicted = "c constant, equal gaps: the norm of a step is |1 - CFL| + CFL: 1, 1.02, 3";
-  rows.add(norm(predicted), [=](Finding& row) { predict_norm(row, subject, ratios, {1.0, 1.01, 2.0}, false); });
-  Finding stable = norm(predicted);
-  stable.check += ", a norm of 1";
+  const Coordinate horizon =
+      scheme.model == 1 ? Coordinate("delta/h", "0.5 and 3.5", "delta = 0.5h, 3.5h") : at_ratio(0.5);
+  const Check norm =
+      subject.check(cfl_numbers, "c constant, equal gaps: the norm of a step is |1 - CFL| + CFL: 1, 1.02, 3", {horizon},
+                    "max norm of I + dt R");
+  rows.add(norm, [=](Finding& row) { predict_norm(row, subject, ratios, {1.0, 1.01, 2.0}, false); });
+  Check stable = norm;
+  stable.coordinates.emplace_back("asked", "a norm of 1");
   rows.add_control(stable, "beyond CFL 1 it is larger", [=](Finding& row) {
     predict_norm(row, subject, ratios, {1.01, 2.0}, true);
   });
 
   const auto growth = [&](const std::string& mode) {
-    return subject.finding(cfl_numbers,
-                           "c constant, delta = h/2: (-1)^j grows like |1 - 2 CFL|^n: by 1, 1.02, 3 a step",
-                           "40 steps from " + mode, "max over n of |max |u^n| / |1 - 2 CFL|^n - 1|", Test::bounds);
+    return subject.check(cfl_numbers, "c constant, delta = h/2: (-1)^j grows like |1 - 2 CFL|^n: by 1, 1.02, 3 a step",
+                         {{"mode", mode, "40 steps from " + mode}}, "max over n of |max |u^n| / |1 - 2 CFL|^n - 1|");
   };
   rows.add(growth("(-1)^j"), [=](Finding& row) { predict_growth(row, subject, true); });
   rows.add_control(growth("1"), "constants do not grow", [=](Finding& row) { predict_growth(row, subject, false); });
@@ -214,11 +213,12 @@ void add_many_steps(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t 
   const std::int64_t fewer = std::min<std::int64_t>(most, 1000);
   const auto add = [&](const std::string& claim, const std::string& quantity, const std::string& followed_as,
                        Followed followed, const Subject& right, const Subject& wrong, const std::string& why) {
-    rows.add(right.finding(statement, claim, "N = 16, " + followed_as, quantity, Test::bounds),
+    std::vector<Coordinate> conditions = {{"N", 16.0, "N = 16"}, {"of", followed_as}};
+    rows.add(right.check(statement, claim, conditions, quantity),
              [=](Finding& row) { step_often(row, right, followed, most); });
-    rows.add_control(wrong.finding(statement, claim, fmt::format("N = 16, {}, {} steps", followed_as, fewer), quantity,
-                                   Test::bounds),
-                     why, [=](Finding& row) { step_often(row, wrong, followed, fewer); });
+    conditions.emplace_back("steps", static_cast<double>(fewer), fmt::format("{} steps", fewer));
+    rows.add_control(wrong.check(statement, claim, conditions, quantity), why,
+                     [=](Finding& row) { step_often(row, wrong, followed, fewer); });
   };
   const Subject steady = subject_on(scheme, scene), uneven = subject_on(scheme, varying);
   add("c constant: constants drift by round-off alone", "max |u - 1|", "u = 1", Followed::constant, steady, uneven,
@@ -230,15 +230,12 @@ void add_many_steps(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t 
 }
 
 void add_time_levels(ExtremeRows& rows, std::int64_t most) {
-  const auto named = [&](const std::string& check) {
-    return Finding{.statement = fmt::format("{} steps", most),
-                   .claim = "time levels are n T/count to the last rounding, and the last one is T",
-                   .subject = "time levels",
-                   .check = check,
-                   .quantity = "max |t^n - n T/count| / (t^n eps)",
-                   .test = Test::bounds,
-                   .promised = Verdict::holds,
-                   .expected = Verdict::holds};
+  const auto named = [&](const std::string& by) {
+    return Check{.statement = fmt::format("{} steps", most),
+                 .claim = "time levels are n T/count to the last rounding, and the last one is T",
+                 .subject = "time levels",
+                 .coordinates = {{"by", by}},
+                 .quantity = "max |t^n - n T/count| / (t^n eps)"};
   };
   const auto compare = [most](Finding& row, bool summed) {
     for (const double T : {1.0, 1.0 / 3.0, 0.1}) {

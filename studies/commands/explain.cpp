@@ -58,7 +58,7 @@ std::string explain_measurements(const Study& study) {
   std::string out = fmt::format("{} - {} ({})\n\n", study.name, study.title, study.kind);
   std::size_t cases = 0;
   for (const Series& series : study.series) cases += series.cases.size();
-  for (const Measurement& measurement : study.measurements) out += "  " + measurement.name + "\n";
+  for (const Measurement& measurement : study.measurements) out += "  " + measurement.check.label() + "\n";
   return out + fmt::format("\n{} measurements, {} cases run for them\n", study.measurements.size(), cases);
 }
 

@@ -133,8 +133,12 @@ json surface_json(const SurfaceFit& fit) {
 
 json finding_json(const Finding& finding) {
   const Judgement& judgement = finding.judgement;
-  json out = {{"statement", finding.statement}, {"claim", finding.claim},       {"subject", finding.subject},
-              {"check", finding.check},         {"quantity", finding.quantity}, {"test", name_of(finding.test)}};
+  json out = {{"statement", finding.statement}, {"claim", finding.claim},        {"subject", finding.subject},
+              {"check", finding.conditions()},  {"coordinates", json::object()}, {"quantity", finding.quantity},
+              {"test", name_of(finding.test)}};
+  for (const Coordinate& one : finding.coordinates) {
+    std::visit([&](const auto& value) { out["coordinates"][one.name] = value; }, one.value);
+  }
   if (!finding.remark.empty()) out["remark"] = finding.remark;
   if (!finding.failure.empty()) out["failure"] = finding.failure;
   out["variable"] = finding.variable;
@@ -182,7 +186,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   finding.statement = one.at("statement").get<std::string>();
   finding.subject = one.at("subject").get<std::string>();
   finding.failure = one.value("failure", "");
-  finding.check = one.at("check").get<std::string>();
+  finding.coordinates = {{"check", one.at("check").get<std::string>()}};
   const auto test = test_from(one.at("test").get<std::string>());
   if (!test) throw std::invalid_argument("unknown test " + one.at("test").dump());
   finding.test = *test;

@@ -26,27 +26,6 @@ namespace {
 /// How long cases that are run together may take, in seconds, if some of them can as well be run later.
 constexpr double most_seconds = 2.0;
 
-/// The finding of a measurement, or why there is none; what is not the fault of the numbers goes up.
-Finding take(const Measurement& measurement, const std::vector<SeriesResult>& results) {
-  std::string failure;
-  try {
-    return measurement.take(results);
-  } catch (const StoreError&) {
-    throw;
-  } catch (const std::domain_error& error) {
-    failure = error.what();
-  } catch (const std::runtime_error& error) {
-    failure = error.what();
-  }
-  Finding finding{.statement = measurement.name,
-                  .test = Test::bounds,
-                  .promised = Verdict::holds,
-                  .expected = Verdict::holds,
-                  .failure = failure};
-  judge(finding);
-  return finding;
-}
-
 /// What is asked for: each case and each measurement that no earlier run has left.
 struct Open {
   /// Where a result of a case is wanted.
@@ -117,6 +96,8 @@ class Runner {
     for (std::size_t i = 0; i < study.measurements.size(); ++i) {
       if (const auto found = stored.findings.find(i); reusable && found != stored.findings.end()) {
         result.findings[i] = found->second;
+        // The store has their values, but not what a reader sees of them.
+        result.findings[i]->coordinates = study.measurements[i].check.coordinates;
       } else {
         open_.measurements.push_back({s, i});
         measured = false;
@@ -248,9 +229,9 @@ class Runner {
       if (next == open_.measurements.size() || stop_) return false;
       const auto [s, m] = open_.measurements[next++];
       lock.unlock();
-      const Finding finding = take(studies_[s].measurements[m], run_.studies[s].series);
+      Finding finding = studies_[s].measurements[m].take(run_.studies[s].series);
       lock.lock();
-      run_.studies[s].findings[m] = finding;
+      run_.studies[s].findings[m] = std::move(finding);
       journals_->unsaved(s).findings.push_back(m);
       progress_->finding_done();
       finish_if_complete(s);

@@ -17,7 +17,6 @@
 #include "studies/running/reference.hpp"
 #include "studies/running/run_case.hpp"
 #include "studies/storing/keys.hpp"
-#include "studies/storing/store_error.hpp"
 
 namespace acstudy {
 

@@ -4,6 +4,7 @@
 /// Cases and series that are timed.
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "studies/cases/case_result.hpp"
@@ -30,6 +31,7 @@ struct Sample : PartSeconds {
 struct BenchCase {
   const Case* c = nullptr;
   int threads = 1;
+  std::string form;   ///< that runs it
   CaseResult result;  ///< of the first run, without fields; its times are not those of the samples
   std::vector<Sample> samples;
 

@@ -46,7 +46,7 @@ Check Subject::check(std::string statement, std::string claim, const std::vector
           .expected = good};
 }
 
-std::vector<double> Sweep::deltas(std::int64_t count, double period) const {
+std::vector<double> Resolutions::deltas(std::int64_t count, double period) const {
   std::vector<double> all;
   const double h = period / static_cast<double>(count);
   for (const double ratio : ratios) all.push_back(ratio * h);

@@ -39,7 +39,7 @@ struct Subject {
 };
 
 /// Numbers of particles and horizons, delta = ratio h with h = period / N, and horizons that stay fixed.
-struct Sweep {
+struct Resolutions {
   std::vector<std::int64_t> N;
   std::vector<double> ratios, horizons;
 

@@ -98,16 +98,16 @@ double estimate_error(const Subject& subject, const LemmaEstimate& estimate, con
 namespace {
 
 void measure_whatever_delta(Finding& finding, const Subject& subject, const LemmaEstimate& estimate,
-                            const Sweep& sweep) {
+                            const Resolutions& resolutions) {
   const FieldBounds fields = field_bounds(*subject.scene, subject.t());
-  for (const std::int64_t N : sweep.N) {
+  for (const std::int64_t N : resolutions.N) {
     Point point{.N = N};
     Gaps gap{0.0, HUGE_VAL};  // of all arrangements
     for (const std::vector<double>& x : subject.positions(N)) {
       const Gaps one = gaps(x, subject.scene->period());
       gap = {std::max(gap.largest, one.largest), std::min(gap.smallest, one.smallest)};
     }
-    for (const double delta : sweep.deltas(N, subject.scene->period())) {
+    for (const double delta : resolutions.deltas(N, subject.scene->period())) {
       const double bound =
           estimate.constant({fields, subject.scheme.kernel, subject.scheme.nonlocal_divergence, gap, delta});
       const double ratio = worst(subject, estimate, N, delta).error / variable(estimate, gap.largest, delta);
@@ -126,13 +126,13 @@ Check check_of(const Subject& subject, const LemmaEstimate& estimate, const std:
 
 }  // namespace
 
-Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep) {
+Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Resolutions& resolutions) {
   Check check = check_of(subject, estimate, claim(estimate), {"delta", "whatever delta"}, Test::bounds);
   check.quantity += estimate.nonlocal ? " / h" : " / max(h, delta)";
   if (!estimate.second_term.empty()) {
     check.remark = "C h holds whatever delta, so the printed second term is not needed";
   }
-  return {check, [=](Finding& finding) { measure_whatever_delta(finding, subject, estimate, sweep); }};
+  return {check, [=](Finding& finding) { measure_whatever_delta(finding, subject, estimate, resolutions); }};
 }
 
 Measurement consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path) {

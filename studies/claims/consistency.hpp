@@ -14,10 +14,11 @@ namespace acstudy {
 double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x,
                       double delta);
 
-/// Uniformity in delta: whatever the horizon of the sweep, the error divided by h (by max(h, delta) against the PDE)
-/// is at most a constant that is derived from the fields of the scene, not fitted; see docs/equations.md. A point per
-/// N, at the horizon where the error comes closest to its bound.
-Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep);
+/// Uniformity in delta: whatever the horizon of the resolutions, the error divided by h (by max(h, delta) against the
+/// PDE) is at most a constant that is derived from the fields of the scene, not fitted; see docs/equations.md. A point
+/// per N, at the horizon where the error comes closest to its bound.
+Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate,
+                                       const Resolutions& resolutions);
 
 /// Errors along a path: they vanish with at least order 1, or with path.order if that is given.
 /// @pre path.nonlocal_source == estimate.nonlocal

@@ -28,14 +28,16 @@ std::string numbers(std::int64_t most) { return fmt::format("N = 3 to {}", most)
 
 void add_few_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject subject = subject_on(scheme, scene_with("1"));
-  const Sweep sweep{{std::begin(few), std::end(few)}, {0.3, 1.0, 1.3}, {largest_horizon(*subject.scene)}};
+  const Resolutions resolutions{{std::begin(few), std::end(few)}, {0.3, 1.0, 1.3}, {largest_horizon(*subject.scene)}};
   const auto named = [&](double cfl) {
     return subject.check(numbers(most), "N = 3, 4, 5, 7, c constant: a step at CFL 1 has the max norm 1",
                          {{"N", "3 to 7", "N = 3 to 7"}, at_cfl(cfl)}, "max norm of I + dt R");
   };
-  rows.add(named(1.0), [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected)); });
-  rows.add_control(named(1.5), "beyond the condition",
-                   [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected, 1.5)); });
+  rows.add(named(1.0),
+           [=](Finding& row) { adopt(row, step_is_bounded(subject, resolutions, StepCondition::corrected)); });
+  rows.add_control(named(1.5), "beyond the condition", [=](Finding& row) {
+    adopt(row, step_is_bounded(subject, resolutions, StepCondition::corrected, 1.5));
+  });
 }
 
 /// A run without source on N = 3, 4, 5, 7 moving particles.
@@ -208,17 +210,17 @@ void add_refused_horizons(ExtremeRows& rows) {
 void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
   // An odd number: no particle stands where the largest horizon ends.
-  const Sweep sweep{{63}, {}, {largest_horizon(*subject.scene)}};
+  const Resolutions resolutions{{63}, {}, {largest_horizon(*subject.scene)}};
   const Coordinate largest = {"delta", "just below period/2", "delta just below period/2"};
 
   const auto moment = [&](const Subject& one) {
     return one.check(horizons, fmt::format("at the largest, {}", scheme.model->weights.first_moment_claim),
                      {largest, {"of", "first moment"}}, "max |sum - 1|");
   };
-  rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, sweep)); });
+  rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, resolutions)); });
   if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
     rows.add_control(moment(*wrong), "a part of the kernel is missing",
-                     [=](Finding& row) { adopt(row, first_moment_is_one(*wrong, sweep)); });
+                     [=](Finding& row) { adopt(row, first_moment_is_one(*wrong, resolutions)); });
   }
 
   const auto norm = [&](double cfl) {
@@ -226,7 +228,7 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
                          {largest, at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto step = [=](Finding& row, double cfl) {
-    adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected, cfl));
+    adopt(row, step_is_bounded(subject, resolutions, StepCondition::corrected, cfl));
   };
   rows.add(norm(1.0), [=](Finding& row) { step(row, 1.0); });
   rows.add_control(norm(1.5), "beyond the condition", [=](Finding& row) { step(row, 1.5); });

@@ -48,10 +48,10 @@ View view(const PlacedScheme& placed, std::ptrdiff_t j, const Gaps& gap) {
 using OfParticle = std::function<Measured(const View&)>;
 
 /// A point per N and horizon: what is worst of all particles and arrangements.
-std::vector<Point> worst_points(const Subject& subject, const Sweep& sweep, const OfParticle& of) {
+std::vector<Point> worst_points(const Subject& subject, const Resolutions& resolutions, const OfParticle& of) {
   std::vector<Point> points;
-  for (const std::int64_t N : sweep.N) {
-    for (const double delta : sweep.deltas(N, subject.scene->period())) {
+  for (const std::int64_t N : resolutions.N) {
+    for (const double delta : resolutions.deltas(N, subject.scene->period())) {
       Point point{.N = N, .delta = delta};
       Measured worst{-HUGE_VAL, 0.0};
       for (const std::vector<double>& x : subject.positions(N)) {
@@ -73,9 +73,9 @@ std::vector<Point> worst_points(const Subject& subject, const Sweep& sweep, cons
   return points;
 }
 
-Measurement over_horizons(Check check, const Subject& subject, const Sweep& sweep, const OfParticle& of) {
+Measurement over_horizons(Check check, const Subject& subject, const Resolutions& resolutions, const OfParticle& of) {
   check.variable = "delta/h";
-  return {std::move(check), [=](Finding& finding) { finding.points = worst_points(subject, sweep, of); }};
+  return {std::move(check), [=](Finding& finding) { finding.points = worst_points(subject, resolutions, of); }};
 }
 
 /// The largest difference of any entry of the operator to that row, in units of max|c_hat| / h_min.
@@ -125,12 +125,12 @@ Measurement nearest_neighbor_rows(const Subject& subject, const std::vector<std:
           }};
 }
 
-Measurement weights_are_not_negative(const Subject& subject, const Sweep& sweep) {
+Measurement weights_are_not_negative(const Subject& subject, const Resolutions& resolutions) {
   const bool one_sided = subject.scheme.model->upwind;
   const WeightClaims& claims = subject.scheme.model->weights;
   const Check check = subject.check(std::string(claims.not_negative), std::string(claims.not_negative_claim),
                                     {{"of", "weights"}}, "max -W_k h");
-  return over_horizons(check, subject, sweep, [=](const View& particle) {
+  return over_horizons(check, subject, resolutions, [=](const View& particle) {
     double largest = -HUGE_VAL;
     for (std::size_t k = 0; k < particle.z.size(); ++k) {
       const double negative = one_sided || particle.z[k] > 0.0 ? -particle.W[k] : particle.W[k];
@@ -140,45 +140,45 @@ Measurement weights_are_not_negative(const Subject& subject, const Sweep& sweep)
   });
 }
 
-Measurement first_moment_is_one(const Subject& subject, const Sweep& sweep) {
+Measurement first_moment_is_one(const Subject& subject, const Resolutions& resolutions) {
   const WeightClaims& claims = subject.scheme.model->weights;
   Check check = subject.check(std::string(claims.first_moment), std::string(claims.first_moment_claim),
                               {{"of", "first moment"}}, "max |sum - 1|");
   check.remark = "bound: an ulp per neighbor and four more, and an ulp of a position relative to a gap";
-  return over_horizons(check, subject, sweep, [](const View& particle) {
+  return over_horizons(check, subject, resolutions, [](const View& particle) {
     const double moment = particle.sum([](double z, double W) { return std::abs(z * W); }) / particle.N;
     return Measured{std::abs(moment - 1.0), particle.round_off() + particle.ulp_of_gap};
   });
 }
 
-Measurement weights_cancel(const Subject& subject, const Sweep& sweep) {
+Measurement weights_cancel(const Subject& subject, const Resolutions& resolutions) {
   Check check =
       subject.check("(3.4), sum of weights", "sum W_k = 0", {{"of", "sum of weights"}}, "max |sum W_k| / sum |W_k|");
   check.remark = "bound: an ulp per neighbor and four more";
-  return over_horizons(check, subject, sweep, [](const View& particle) {
+  return over_horizons(check, subject, resolutions, [](const View& particle) {
     const double sum = particle.sum([](double, double W) { return W; });
     return Measured{std::abs(sum) / particle.sum([](double, double W) { return std::abs(W); }), particle.round_off()};
   });
 }
 
-Measurement second_moment_is_bounded(const Subject& subject, const Sweep& sweep, bool one_sided) {
+Measurement second_moment_is_bounded(const Subject& subject, const Resolutions& resolutions, bool one_sided) {
   Check check = subject.check(
       one_sided ? "(3.5), with |W_k|" : "(3.5)", "second moment at most max(h, delta)", {{"of", "second moment"}},
       one_sided ? "max sum z^2 |W_k| / (N_j max(h, delta))" : "max |sum z^2 W_k| / (N_j max(h, delta))");
   if (one_sided) check.remark = "what Lemma 3.4 rests on: the printed sum is smaller, since its two sides cancel";
-  return over_horizons(check, subject, sweep, [one_sided](const View& particle) {
+  return over_horizons(check, subject, resolutions, [one_sided](const View& particle) {
     const double sum = particle.sum([&](double z, double W) { return z * z * (one_sided ? std::abs(W) : W); });
     return Measured{std::abs(sum) / particle.N / std::max(particle.h, particle.delta), 1.0 + particle.round_off()};
   });
 }
 
-Measurement renormalization_is_near_one(const Subject& subject, const Sweep& sweep) {
+Measurement renormalization_is_near_one(const Subject& subject, const Resolutions& resolutions) {
   const double mass = total_mass(subject.scheme.kernel);
   Check check =
       subject.check("Lemma 3.1", "|N_j - 1| <= C h/delta", {{"delta", "whatever delta"}}, "max |N_j - 1| delta / h");
   check.remark =
       fmt::format("C = int_0^1 eta = {:.6g}: no particle is farther than h from any point of its cell", mass);
-  return over_horizons(check, subject, sweep, [mass](const View& particle) {
+  return over_horizons(check, subject, resolutions, [mass](const View& particle) {
     const double ratio = particle.delta / particle.h;
     return Measured{std::abs(particle.N - 1.0) * ratio,
                     mass * (1.0 + particle.round_off()) + particle.round_off() * ratio};

@@ -14,16 +14,16 @@ namespace acstudy {
 Measurement nearest_neighbor_rows(const Subject& subject, const std::vector<std::int64_t>& N, double ratio);
 
 /// Model I, Remark 2.2: W_k >= 0.  Model II: sign(k) W_k >= 0.
-Measurement weights_are_not_negative(const Subject& subject, const Sweep& sweep);
+Measurement weights_are_not_negative(const Subject& subject, const Resolutions& resolutions);
 /// Model I, Remark 2.2: sum d_k W_k = 1.  Model II, (3.4): sum (x_i - x_j) W_k / N_j = 1.
-Measurement first_moment_is_one(const Subject& subject, const Sweep& sweep);
+Measurement first_moment_is_one(const Subject& subject, const Resolutions& resolutions);
 /// Model II, (3.4): sum W_k = 0.
-Measurement weights_cancel(const Subject& subject, const Sweep& sweep);
+Measurement weights_cancel(const Subject& subject, const Resolutions& resolutions);
 /// Model II, (3.5): the second moment is at most max(h, delta); `one_sided` takes |W_k| in place of W_k, which is what
 /// the proof of Lemma 3.4 needs.
-Measurement second_moment_is_bounded(const Subject& subject, const Sweep& sweep, bool one_sided);
+Measurement second_moment_is_bounded(const Subject& subject, const Resolutions& resolutions, bool one_sided);
 /// Model II, Lemma 3.1: |N_j - 1| <= C h/delta with C = int_0^1 eta.
-Measurement renormalization_is_near_one(const Subject& subject, const Sweep& sweep);
+Measurement renormalization_is_near_one(const Subject& subject, const Resolutions& resolutions);
 /// Model II, Lemma 3.1: the largest |N_j - 1| at a fixed horizon is at least of order 1 in h/delta.
 Measurement order_of_renormalization(const Subject& subject, const std::vector<std::int64_t>& N, double delta);
 /// Model II, Lemma 3.1 as printed: N_j >= 1. Searches for the smallest N_j: every pattern of four gaps with the ratios

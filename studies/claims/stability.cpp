@@ -32,14 +32,14 @@ double growth_rate(const Scene& scene, double t) {
   return fields.c_hat_1 + fields.b_1;
 }
 
-void measure_norms(Finding& finding, const Subject& subject, const Sweep& sweep, StepCondition condition, double cfl,
-                   double growth) {
+void measure_norms(Finding& finding, const Subject& subject, const Resolutions& resolutions, StepCondition condition,
+                   double cfl, double growth) {
   // A control is stepped as the scheme that it is taken for.
   SchemeChoice itself = subject.scheme;
   itself.control = nullptr;
-  for (const std::int64_t N : sweep.N) {
+  for (const std::int64_t N : resolutions.N) {
     const double h = subject.scene->period() / static_cast<double>(N);
-    for (const double delta : sweep.deltas(N, subject.scene->period())) {
+    for (const double delta : resolutions.deltas(N, subject.scene->period())) {
       Point worst{.N = N, .h = h, .delta = delta, .variable = delta / h, .upper = NAN};
       for (const std::vector<double>& x : subject.positions(N)) {
         PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
@@ -78,7 +78,8 @@ constexpr const char* bounded = "norm <= 1 + dt (||c_hat'|| + ||b'||)";
 
 }  // namespace
 
-Measurement step_is_bounded(const Subject& subject, const Sweep& sweep, StepCondition condition, double cfl) {
+Measurement step_is_bounded(const Subject& subject, const Resolutions& resolutions, StepCondition condition,
+                            double cfl) {
   const bool corrected = condition == StepCondition::corrected;
   const StepLemma& lemma = subject.scheme.model->step_lemma;
   const double growth = growth_rate(*subject.scene, subject.t());
@@ -89,7 +90,7 @@ Measurement step_is_bounded(const Subject& subject, const Sweep& sweep, StepCond
     check.be_control("beyond the condition the norm exceeds the bound");
     check.promised = Verdict::violated;
   }
-  return {check, [=](Finding& finding) { measure_norms(finding, subject, sweep, condition, cfl, growth); }};
+  return {check, [=](Finding& finding) { measure_norms(finding, subject, resolutions, condition, cfl, growth); }};
 }
 
 Measurement printed_condition_on_uneven_gaps(const Subject& subject, const std::vector<std::int64_t>& N) {

@@ -21,7 +21,8 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
 /// With dt = cfl times that, the max norm of I + dt R is at most 1 + dt (||c_hat'|| + ||b'||), whatever delta; 1 for
 /// a constant velocity, the maximum principle.
 /// With cfl >= 1.5 and the corrected condition it is not: the negative control.
-Measurement step_is_bounded(const Subject& subject, const Sweep& sweep, StepCondition condition, double cfl = 1.0);
+Measurement step_is_bounded(const Subject& subject, const Resolutions& resolutions, StepCondition condition,
+                            double cfl = 1.0);
 
 /// The printed condition of Lemma 3.3 on gaps h/2, h/2, 3h/2, 3h/2, ... with the horizon just below 2h, where it does
 /// not bound the norm.

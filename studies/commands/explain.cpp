@@ -7,6 +7,7 @@
 #include <set>
 
 #include "solver/particles.hpp"
+#include "studies/running/plan.hpp"
 
 namespace acstudy {
 
@@ -87,6 +88,22 @@ std::string explain_reference(const Series& series, const ReferenceLevel& refere
   return out;
 }
 
+/// The form that runs each case of a series, coarse to fine: "vector up to N = 640, vector with far sums up to N =
+/// 2560".
+std::string forms_of(const Series& series) {
+  std::vector<const Case*> cases;
+  for (const Case& c : series.cases) cases.push_back(&c);
+  const std::vector<Plan> plans = plan(cases);
+  std::string out;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const bool last = i + 1 == plans.size();
+    if (!last && plans[i + 1].form == plans[i].form) continue;
+    if (last && out.empty()) return std::string(plans[i].form->name);
+    out += fmt::format("{}{} up to N = {}", out.empty() ? "" : ", ", plans[i].form->name, plans[i].c->N);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string explain(const Study& study) {
@@ -126,7 +143,7 @@ std::string explain(const Study& study) {
       out += fmt::format("  theory: the error does not vanish ({})\n", series.theory.statement);
     }
     if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
-    out += fmt::format("  the gate expects: {}\n", name_of(series.expected));
+    out += fmt::format("  the gate expects: {}\n  form: {}\n", name_of(series.expected), forms_of(series));
     if (series.scheme.model->viscous) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
     out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps",
                        "neighbors", "CFL");

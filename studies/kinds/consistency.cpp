@@ -11,7 +11,7 @@ namespace {
 
 void read_consistency(const Table& root, Study& study) {
   study.scene = read_scene(root.sub_table("scene"));
-  const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("resolutions"), *study.scene);
   std::vector<PathChoice> paths;
   for (const Table& table : root.array_of_tables("path")) {
     const PathChoice& path = paths.emplace_back(read_path(table));
@@ -26,13 +26,13 @@ void read_consistency(const Table& root, Study& study) {
       // D does not depend on how the divergence is written.
       if (estimate.viscous && subject.scheme.nonlocal_divergence) continue;
       std::vector<Measurement>& all = study.measurements;
-      all.push_back(consistency_whatever_delta(subject, estimate, sweep));
+      all.push_back(consistency_whatever_delta(subject, estimate, resolutions));
       for (const PathChoice& path : paths) {
         if (path.nonlocal_source == estimate.nonlocal) all.push_back(consistency_along(subject, estimate, path));
       }
       if (!estimate.second_term.empty()) {
-        all.push_back(order_below_spacing(subject, estimate, sweep.N, 0.01));
-        all.push_back(growth_below_spacing(subject, estimate, sweep.N.back(), sweep.ratios));
+        all.push_back(order_below_spacing(subject, estimate, resolutions.N, 0.01));
+        all.push_back(growth_below_spacing(subject, estimate, resolutions.N.back(), resolutions.ratios));
       }
     }
   }

@@ -198,7 +198,7 @@ std::vector<Column> columns_without_runs(const Table& root, const std::shared_pt
   const auto on_scene = [scene](const SchemeEntry& entry) {
     return Subject{entry.scheme, entry.mu, scene, scene->standing() ? Arrangement::jittered : Arrangement::moved};
   };
-  const Sweep sweep{{100, 200}, {0.1, 1.0, 2.5, 10.0}, {}};
+  const Resolutions resolutions{{100, 200}, {0.1, 1.0, 2.5, 10.0}, {}};
 
   std::vector<Column> columns;
   for (const Table& table : root.array_of_tables("consistency")) {
@@ -210,16 +210,17 @@ std::vector<Column> columns_without_runs(const Table& root, const std::shared_pt
     columns.push_back(
         {"consistency, " + path.name, [=](const SchemeEntry& entry) { return consistency(on_scene(entry), path); }});
   }
-  columns.push_back({"nearest neighbors",
-                     [=](const SchemeEntry& entry) { return nearest_neighbor_rows(on_scene(entry), sweep.N, 0.5); }});
+  columns.push_back({"nearest neighbors", [=](const SchemeEntry& entry) {
+                       return nearest_neighbor_rows(on_scene(entry), resolutions.N, 0.5);
+                     }});
   columns.push_back(
-      {"first moment", [=](const SchemeEntry& entry) { return first_moment_is_one(on_scene(entry), sweep); }});
+      {"first moment", [=](const SchemeEntry& entry) { return first_moment_is_one(on_scene(entry), resolutions); }});
   columns.push_back({"step norm", [=](const SchemeEntry& entry) {
-                       return step_is_bounded(on_scene(entry), sweep, StepCondition::corrected);
+                       return step_is_bounded(on_scene(entry), resolutions, StepCondition::corrected);
                      }});
   columns.push_back({"maximum principle", [=](const SchemeEntry& entry) {
                        const Subject subject{entry.scheme, 1.0, constant, Arrangement::jittered};
-                       return step_is_bounded(subject, sweep, StepCondition::corrected);
+                       return step_is_bounded(subject, resolutions, StepCondition::corrected);
                      }});
   columns.push_back({"trajectories", [=](const SchemeEntry& entry) { return trajectories(entry, scene); }});
   return columns;

@@ -12,20 +12,20 @@ namespace {
 
 void read_identities(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
-  const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("resolutions"), *study.scene);
   std::vector<Measurement>& all = study.measurements;
   std::set<std::string> kernels;
   for (const Subject& subject : read_subjects(root, study.scene)) {
     const KernelChoice& kernel = subject.scheme.kernel;
     if (kernels.insert(kernel.label()).second) all.push_back(kernel_moments(kernel));
-    for (const double ratio : {0.9, 4.0}) all.push_back(nearest_neighbor_rows(subject, sweep.N, ratio));
-    all.push_back(weights_are_not_negative(subject, sweep));
-    all.push_back(first_moment_is_one(subject, sweep));
+    for (const double ratio : {0.9, 4.0}) all.push_back(nearest_neighbor_rows(subject, resolutions.N, ratio));
+    all.push_back(weights_are_not_negative(subject, resolutions));
+    all.push_back(first_moment_is_one(subject, resolutions));
     if (!subject.scheme.model->renormalized) continue;
-    all.push_back(weights_cancel(subject, sweep));
-    for (const bool one_sided : {false, true}) all.push_back(second_moment_is_bounded(subject, sweep, one_sided));
-    all.push_back(renormalization_is_near_one(subject, sweep));
-    for (const double delta : sweep.horizons) all.push_back(order_of_renormalization(subject, sweep.N, delta));
+    all.push_back(weights_cancel(subject, resolutions));
+    for (const bool one_sided : {false, true}) all.push_back(second_moment_is_bounded(subject, resolutions, one_sided));
+    all.push_back(renormalization_is_near_one(subject, resolutions));
+    for (const double delta : resolutions.horizons) all.push_back(order_of_renormalization(subject, resolutions.N, delta));
     if (subject.arrangement == Arrangement::uniform) all.push_back(renormalization_is_at_least_one(subject, 16));
   }
 }

@@ -14,7 +14,7 @@ namespace {
 
 void read_stability(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
-  const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("resolutions"), *study.scene);
   const std::vector<Subject> subjects = read_subjects(root, study.scene);
 
   // The kernels with which Lemma 3.3 as printed is expected to fail.
@@ -36,13 +36,13 @@ void read_stability(const Table& root, Study& study) {
   std::vector<Measurement>& all = study.measurements;
   for (const Subject& subject : subjects) {
     const bool enough = subject.scheme.model->step_lemma.enough_for_every_kernel;
-    all.push_back(step_is_bounded(subject, sweep, StepCondition::printed));
+    all.push_back(step_is_bounded(subject, resolutions, StepCondition::printed));
     if (!enough && failing.count(subject.scheme.kernel.label()) > 0) all.back().check.expected = Verdict::violated;
     for (const double cfl : {1.0, 1.5}) {
-      all.push_back(step_is_bounded(subject, sweep, StepCondition::corrected, cfl));
+      all.push_back(step_is_bounded(subject, resolutions, StepCondition::corrected, cfl));
     }
     if (!enough && subject.arrangement == Arrangement::uniform) {
-      all.push_back(printed_condition_on_uneven_gaps(subject, sweep.N));
+      all.push_back(printed_condition_on_uneven_gaps(subject, resolutions.N));
     }
   }
 }

@@ -268,15 +268,15 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
   return {scheme, scheme.model->viscous ? scheme.mu.value_or(scene.max_relative_velocity()) : 0.0};
 }
 
-Sweep read_sweep(const Table& table, const Scene& scene) {
-  Sweep sweep{read_levels(table), read_positive(table, "ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
+Resolutions read_resolutions(const Table& table, const Scene& scene) {
+  Resolutions resolutions{read_levels(table), read_positive(table, "ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
   if (table.find("horizons") != nullptr) {
-    sweep.horizons = read_positive(table, "horizons", "horizons = [0.2]");
-    for (const double delta : sweep.horizons) {
-      check_horizon(scene, sweep.N.front(), delta, table.place(*table.find("horizons")));
+    resolutions.horizons = read_positive(table, "horizons", "horizons = [0.2]");
+    for (const double delta : resolutions.horizons) {
+      check_horizon(scene, resolutions.N.front(), delta, table.place(*table.find("horizons")));
     }
   }
-  return sweep;
+  return resolutions;
 }
 
 namespace {

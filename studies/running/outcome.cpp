@@ -10,21 +10,29 @@
 
 namespace acstudy {
 
-Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
-                 std::span<const double> u_exact) {
+std::vector<double> widths_on_line(std::span<const double> x, double period) {
   const std::size_t count = x.size();
-  Errors errors;
+  std::vector<double> widths(count);
   for (std::size_t j = 0; j < count; ++j) {
-    const double right = j + 1 < count ? x[j + 1] : x[0] + scene.period();
-    const double left = j > 0 ? x[j - 1] : x[count - 1] - scene.period();
-    const double error = std::abs(u[j] - u_exact[j]), width = 0.5 * (right - left);
+    const double right = j + 1 < count ? x[j + 1] : x[0] + period;
+    const double left = j > 0 ? x[j - 1] : x[count - 1] - period;
+    widths[j] = 0.5 * (right - left);
+  }
+  return widths;
+}
+
+Errors errors_of(std::span<const double> volumes, double whole, std::span<const double> u,
+                 std::span<const double> u_exact) {
+  Errors errors;
+  for (std::size_t j = 0; j < u.size(); ++j) {
+    const double error = std::abs(u[j] - u_exact[j]);
     // Once NaN, it stays: no comparison with a NaN is true.
     if (std::isnan(error) || error > errors.linf) errors.linf = error;
-    errors.l1 += width * error;
-    errors.l2 = std::hypot(errors.l2, std::sqrt(width) * error);  // a square of an error may overflow
+    errors.l1 += volumes[j] * error;
+    errors.l2 = std::hypot(errors.l2, std::sqrt(volumes[j]) * error);  // a square of an error may overflow
   }
-  errors.l1 /= scene.period();
-  errors.l2 /= std::sqrt(scene.period());
+  errors.l1 /= whole;
+  errors.l2 /= std::sqrt(whole);
   return errors;
 }
 
@@ -84,7 +92,7 @@ void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std:
   if (scene.solved()) {
     result.u_exact.resize(u.size());
     scene.u(x, end, result.u_exact);
-    errors = errors_of(scene, result.x, result.u, result.u_exact);
+    errors = errors_of(widths_on_line(result.x, scene.period()), scene.period(), result.u, result.u_exact);
   }
   result.solution_linf = std::max(solution_at_first, max_norm(result.u_exact));
   if (to_the_end) {

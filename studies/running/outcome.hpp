@@ -7,17 +7,24 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "studies/running/run_case.hpp"
 #include "studies/running/watch.hpp"
 
 namespace acstudy {
 
-/// Errors of u against the exact solution at x and t; NaN if one is.
+/// The widths of the cells of particles on a periodic line, from the middle of one gap to that of the next.
+/// @param x  increasing within one period
+std::vector<double> widths_on_line(std::span<const double> x, double period);
+
+/// Norms of u - u_exact, in any dimension; NaN if one of the values is.
 struct Errors {
-  double linf = 0.0, l1 = 0.0, l2 = 0.0;  ///< the latter two weighted by cell width and divided by the period
+  double linf = 0.0, l1 = 0.0, l2 = 0.0;  ///< the latter two weighted by volume and divided by that of the whole
 };
-Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
+/// @param volumes  of the particles' cells, shape [N]
+/// @param whole    their sum
+Errors errors_of(std::span<const double> volumes, double whole, std::span<const double> u,
                  std::span<const double> u_exact);
 
 /// Why a run ended in the step after those of `result`, which began at time t.

@@ -64,7 +64,7 @@ void compare_with_reference(const Series& series, std::vector<CaseResult>& resul
     scene.initial(start_positions(series.cases[i].start, r.x.size(), scene.period()), u_0);
     r.u_exact = values_at(reference.x, reference.u, scene.period(), r.x);
     r.solution_linf = std::max(max_norm(u_0), max_norm(r.u_exact));
-    const Errors errors = errors_of(scene, r.x, r.u, r.u_exact);
+    const Errors errors = errors_of(widths_on_line(r.x, scene.period()), scene.period(), r.u, r.u_exact);
     r.error_linf = errors.linf;
     r.error_l1 = errors.l1;
     r.error_l2 = errors.l2;

@@ -45,39 +45,37 @@ CaseResult run_readable(const Case& c, const std::atomic<bool>& stop) {
   return run_once<MovingParticles>(c, stop);
 }
 
-std::vector<CaseResult> run_together(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop,
+std::vector<CaseResult> run_together(std::span<const Plan> plans, int threads, const std::atomic<bool>& stop,
                                      double most_seconds) {
   std::string failure;
   try {
-    if (cases.size() > 1 || runs_in_vector_form(*cases.front())) {
-      return run_ensemble(cases, threads, stop, most_seconds);
-    }
-    return {run_readable(*cases.front(), stop)};
+    if (plans.front().form->together) return run_ensemble(plans, threads, stop, most_seconds);
+    return {run_readable(*plans.front().c, stop)};
   } catch (const std::domain_error& error) {
     failure = error.what();
   } catch (const std::runtime_error& error) {
     failure = error.what();
   }
-  if (cases.size() == 1) return {failed(failure)};
+  if (plans.size() == 1) return {failed(failure)};
   // One of them failed; it must not take the others along.
   std::vector<CaseResult> results;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    results.push_back(run_together(cases.subspan(i, 1), threads, stop, most_seconds).front());
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    results.push_back(run_together(plans.subspan(i, 1), threads, stop, most_seconds).front());
   }
   return results;
 }
 
 }  // namespace
 
-std::vector<CaseResult> run_cases(std::span<const Case* const> cases, const std::atomic<bool>& stop,
-                                  std::size_t repeats, int threads, double most_seconds) {
-  std::vector<CaseResult> results(cases.size());
-  std::vector<std::vector<double>> seconds(cases.size());
-  std::vector<std::size_t> which(cases.size());
+std::vector<CaseResult> run_cases(std::span<const Plan> plans, const std::atomic<bool>& stop, std::size_t repeats,
+                                  int threads, double most_seconds) {
+  std::vector<CaseResult> results(plans.size());
+  std::vector<std::vector<double>> seconds(plans.size());
+  std::vector<std::size_t> which(plans.size());
   std::iota(which.begin(), which.end(), std::size_t{0});
   for (std::size_t repeat = 0; repeat < repeats && !which.empty(); ++repeat) {
-    std::vector<const Case*> these;
-    for (const std::size_t i : which) these.push_back(cases[i]);
+    std::vector<Plan> these;
+    for (const std::size_t i : which) these.push_back(plans[i]);
     std::vector<CaseResult> once = run_together(these, threads, stop, most_seconds);
     for (std::size_t k = 0; k < which.size(); ++k) {
       results[which[k]] = std::move(once[k]);
@@ -97,7 +95,7 @@ std::vector<CaseResult> run_cases(std::span<const Case* const> cases, const std:
 }
 
 CaseResult run_case(const Case& c, const std::atomic<bool>& stop, std::size_t repeats, int threads) {
-  const Case* const one = &c;
+  const Plan one = plan(c);
   return run_cases({&one, 1}, stop, repeats, threads).front();
 }
 

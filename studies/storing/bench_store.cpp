@@ -90,6 +90,7 @@ json case_json(const BenchCase& one) {
   one.c->stored(put);
   out["stages"] = one.c->integrator->stage_count();
   out["threads"] = one.threads;
+  out["form"] = one.form;
   for_each_kept(one.result, put);
   out["failure"] = one.result.failure.empty() ? one.result.blow_up : one.result.failure;
   json samples;

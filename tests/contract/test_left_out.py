@@ -80,6 +80,16 @@ class LeftOut(ProgramTest):
             done = self.acstudy("explain", study)
             self.assertEqual((done.returncode, done.stderr), (0, ""), study)
 
+    def test_explain_says_in_which_form_each_series_runs(self):
+        def form(*changes):
+            return re.findall(r"^  form: (.*)$", self.explain(edit(STUDY, *changes)), re.MULTILINE)
+
+        self.assertEqual(form(), ["vector"])
+        self.assertEqual(form(("forward-euler", "sdirk2")), ["readable with implicit steps"])
+        self.assertEqual(form(('"h/4"', '"cfl"\nbound = "rows"')), ["readable"])
+        self.assertEqual(form(('"4*h"', '"1"'), ("[16, 32, 64]", "[64, 512, 2048]")),
+                         ["vector up to N = 512, vector with far sums up to N = 2048"])
+
     def test_explain_warns_of_steps_and_viscosity_beyond_the_lemmas(self):
         self.assertIn("beyond the bound 1 of the stability lemma", self.explain(edit(STUDY, ('"h/4"', '"h"'))))
         self.assertNotIn("beyond", self.explain(STUDY))

@@ -22,12 +22,12 @@ namespace {
 constexpr double pi = std::numbers::pi, e = std::numbers::e;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Sweep {
+struct Values {
   std::vector<double> value, by_x, by_t;
 };
 
-Sweep sweep(const Expression& f, const std::vector<double>& x, double t) {
-  Sweep s{std::vector<double>(x.size()), std::vector<double>(x.size()), std::vector<double>(x.size())};
+Values values_of(const Expression& f, const std::vector<double>& x, double t) {
+  Values s{std::vector<double>(x.size()), std::vector<double>(x.size()), std::vector<double>(x.size())};
   f.evaluate(x, {t}, {s.value, s.by_x, s.by_t});
   return s;
 }
@@ -193,7 +193,7 @@ TEST_CASE("values and derivatives of every operator and function are exact to ro
     const Expression f(k.text, {"x", "t"});
     const auto x = random_points(300, k.low, k.high);
     for (const double t : {0.3, 1.7}) {
-      const Sweep s = sweep(f, x, t);
+      const Values s = values_of(f, x, t);
       double gap = 0.0, gap_x = 0.0, gap_t = 0.0;
       const auto relative = [](double a, double b) { return std::abs(a - b) / (1.0 + std::abs(b)); };
       for (std::size_t i = 0; i < x.size(); ++i) {
@@ -218,7 +218,7 @@ TEST_CASE("asking for a derivative does not change the value, nor the other deri
   for (const Known& k : known()) {
     CAPTURE(k.text);
     const Expression f(k.text, {"x", "t"});
-    const Sweep all = sweep(f, x, 0.4);
+    const Values all = values_of(f, x, 0.4);
     std::vector<double> value(x.size()), by_x(x.size()), by_t(x.size());
     f.evaluate(x, {0.4}, {value, {}, {}});
     f.evaluate(x, {0.4}, {{}, by_x, {}});
@@ -234,7 +234,7 @@ TEST_CASE("asking for a derivative does not change the value, nor the other deri
 
 TEST_CASE("powers of a vanishing base have their derivatives") {
   const auto slope_at_zero = [](const std::string& text) {
-    return sweep(Expression(text, {"x", "t"}), {0.0}, 2.0).by_x[0];
+    return values_of(Expression(text, {"x", "t"}), {0.0}, 2.0).by_x[0];
   };
   CHECK(slope_at_zero("x^2") == 0.0);
   CHECK(slope_at_zero("x^3") == 0.0);
@@ -242,8 +242,8 @@ TEST_CASE("powers of a vanishing base have their derivatives") {
   CHECK(slope_at_zero("(x - 1)^2") == -2.0);
   CHECK(slope_at_zero("x^t") == 0.0);
   CHECK(slope_at_zero("3*x^2 + 5*x") == 5.0);
-  CHECK(sweep(Expression("x^2", {"x", "t"}), {-3.0}, 0.0).by_x[0] == -6.0);
-  CHECK_THAT(sweep(Expression("x^3", {"x", "t"}), {-2.0}, 0.0).by_x[0], WithinRel(12.0, 1e-15));
+  CHECK(values_of(Expression("x^2", {"x", "t"}), {-3.0}, 0.0).by_x[0] == -6.0);
+  CHECK_THAT(values_of(Expression("x^3", {"x", "t"}), {-2.0}, 0.0).by_x[0], WithinRel(12.0, 1e-15));
 }
 
 TEST_CASE("atan2 and its derivative are right in all quadrants") {
@@ -251,7 +251,7 @@ TEST_CASE("atan2 and its derivative are right in all quadrants") {
   for (int i = 0; i < 48; ++i) {
     const double x = -pi + (i + 0.5) * pi / 24.0;
     CAPTURE(x);
-    const Sweep s = sweep(angle, {x}, 0.0);
+    const Values s = values_of(angle, {x}, 0.0);
     CHECK_THAT(s.value[0], WithinAbs(x, 1e-15));
     CHECK_THAT(s.by_x[0], WithinRel(1.0, 1e-15));
   }
@@ -262,17 +262,17 @@ TEST_CASE("a value does not depend on where in an array its point stands") {
   for (const Known& k : known()) {
     CAPTURE(k.text);
     const Expression f(k.text, {"x", "t"});
-    const Sweep whole = sweep(f, x, 0.7);
-    std::vector<Sweep> alone;
-    for (const double point : x) alone.push_back(sweep(f, {point}, 0.7));
+    const Values whole = values_of(f, x, 0.7);
+    std::vector<Values> alone;
+    for (const double point : x) alone.push_back(values_of(f, {point}, 0.7));
     for (const std::size_t count : {1u, 7u, 8u, 127u, 128u, 129u, 1000u}) {
       for (const std::size_t first : {0u, 3u}) {
         if (first + count > x.size()) continue;
         const std::vector<double> part(x.begin() + first, x.begin() + first + count);
-        const Sweep s = sweep(f, part, 0.7);
+        const Values s = values_of(f, part, 0.7);
         bool same = true;
         for (std::size_t i = 0; i < count; ++i) {
-          const Sweep& one = alone[first + i];
+          const Values& one = alone[first + i];
           same = same && std::memcmp(&s.value[i], &one.value[0], sizeof(double)) == 0 &&
                  std::memcmp(&s.by_x[i], &one.by_x[0], sizeof(double)) == 0 &&
                  std::memcmp(&s.by_t[i], &one.by_t[0], sizeof(double)) == 0;
@@ -297,7 +297,7 @@ TEST_CASE("functions of whole vectors are within 4 units in the last place of th
   for (const auto& [text, f, low, high] : table) {
     CAPTURE(text);
     const auto x = random_points(20000, low, high);
-    const Sweep s = sweep(Expression(text, {"x", "t"}), x, 0.0);
+    const Values s = values_of(Expression(text, {"x", "t"}), x, 0.0);
     double worst = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, ulps(s.value[i], f(x[i])));
     CHECK(worst <= 4.0);
@@ -307,7 +307,7 @@ TEST_CASE("functions of whole vectors are within 4 units in the last place of th
 TEST_CASE("expressions are shared between threads") {
   const Expression f("exp(sin(x - t))*atan2(x, 1 + t) + x^3", {"x", "t"});
   const auto x = random_points(777, -3.0, 3.0);
-  const Sweep expected = sweep(f, x, 0.3), other = sweep(f, x, 0.9);
+  const Values expected = values_of(f, x, 0.3), other = values_of(f, x, 0.9);
   std::vector<int> wrong(4, 0);
   {
     std::vector<std::jthread> threads;
@@ -315,8 +315,8 @@ TEST_CASE("expressions are shared between threads") {
       threads.emplace_back([&, thread] {
         for (int i = 0; i < 50; ++i) {
           const bool first = (i + thread) % 2 == 0;
-          const Sweep s = sweep(f, x, first ? 0.3 : 0.9);
-          const Sweep& reference = first ? expected : other;
+          const Values s = values_of(f, x, first ? 0.3 : 0.9);
+          const Values& reference = first ? expected : other;
           wrong[thread] += s.value != reference.value || s.by_x != reference.by_x || s.by_t != reference.by_t;
           // Compiling in one thread does not disturb another.
           wrong[thread] += Expression("x*" + std::to_string(thread) + " + 1", {"x"})({2.0}) != 2.0 * thread + 1.0;

@@ -113,12 +113,12 @@ TEST_CASE("bounds of a scene's fields are those of its formulas", "[operator]") 
 }
 
 TEST_CASE("estimates hold with derived constants, and not of a mistaken scheme", "[operator]") {
-  const Sweep sweep{{80, 160, 320}, {0.01, 0.7, 2.0, 10.0}, {}};
+  const Resolutions resolutions{{80, 160, 320}, {0.01, 0.7, 2.0, 10.0}, {}};
   for (const int model : {1, 2}) {
     for (const Arrangement arrangement : arrangements) {
       for (const LemmaEstimate& estimate : find_model(model)->estimates) {
         const Finding finding =
-            consistency_whatever_delta(subject(model, spline, arrangement, "lee-du-2019", true), estimate, sweep)
+            consistency_whatever_delta(subject(model, spline, arrangement, "lee-du-2019", true), estimate, resolutions)
                 .take();
         INFO(finding.label() << ": " << finding.judgement.reason);
         CHECK(finding.judgement.verdict == Verdict::holds);
@@ -127,7 +127,7 @@ TEST_CASE("estimates hold with derived constants, and not of a mistaken scheme",
   }
   // Model I is within half the largest second derivative of its flux times h, and comes to it.
   const Finding sharp =
-      consistency_whatever_delta(subject(1, inverse, Arrangement::uniform), model_one.estimates[0], sweep).take();
+      consistency_whatever_delta(subject(1, inverse, Arrangement::uniform), model_one.estimates[0], resolutions).take();
   for (const Point& point : sharp.points) CHECK(point.value > 0.99 * point.upper);
 
   for (const int model : {1, 2}) {
@@ -184,19 +184,19 @@ TEST_CASE("an error that is no number is the worst of all", "[operator]") {
 }
 
 TEST_CASE("identities of the weights hold, and each of them can fail", "[operator]") {
-  const Sweep sweep{{40}, {0.01, 1.0, 3.0, 12.0}, {}};
+  const Resolutions resolutions{{40}, {0.01, 1.0, 3.0, 12.0}, {}};
   for (const int model : {1, 2}) {
     const Subject one = subject(model, spline, Arrangement::jittered, "lee-du-2019", true);
-    CHECK(weights_are_not_negative(one, sweep).take().judgement.verdict == Verdict::holds);
-    CHECK(first_moment_is_one(one, sweep).take().judgement.verdict == Verdict::holds);
+    CHECK(weights_are_not_negative(one, resolutions).take().judgement.verdict == Verdict::holds);
+    CHECK(first_moment_is_one(one, resolutions).take().judgement.verdict == Verdict::holds);
     CHECK(nearest_neighbor_rows(one, {40}, 0.9).take().judgement.verdict == Verdict::holds);
     CHECK(nearest_neighbor_rows(one, {40}, 4.0).take().judgement.verdict == Verdict::violated);
   }
   const Subject two = subject(2, spline, Arrangement::jittered);
-  CHECK(weights_cancel(two, sweep).take().judgement.verdict == Verdict::holds);
-  CHECK(second_moment_is_bounded(two, sweep, false).take().judgement.verdict == Verdict::holds);
-  CHECK(second_moment_is_bounded(two, sweep, true).take().judgement.verdict == Verdict::holds);
-  CHECK(renormalization_is_near_one(two, sweep).take().judgement.verdict == Verdict::holds);
+  CHECK(weights_cancel(two, resolutions).take().judgement.verdict == Verdict::holds);
+  CHECK(second_moment_is_bounded(two, resolutions, false).take().judgement.verdict == Verdict::holds);
+  CHECK(second_moment_is_bounded(two, resolutions, true).take().judgement.verdict == Verdict::holds);
+  CHECK(renormalization_is_near_one(two, resolutions).take().judgement.verdict == Verdict::holds);
   CHECK(order_of_renormalization(two, {40, 80, 160, 320}, 0.6).take().judgement.verdict == Verdict::holds);
   CHECK(renormalization_is_at_least_one(two, 16).take().judgement.verdict == Verdict::violated);
   for (const KernelChoice& kernel : {inverse, spline, steep}) {
@@ -205,16 +205,17 @@ TEST_CASE("identities of the weights hold, and each of them can fail", "[operato
 }
 
 TEST_CASE("a step within its condition is bounded, one beyond is not", "[operator]") {
-  const Sweep sweep{{60}, {0.01, 1.0, 1.9, 6.0, 20.0}, {}};
+  const Resolutions resolutions{{60}, {0.01, 1.0, 1.9, 6.0, 20.0}, {}};
   for (const Arrangement arrangement : arrangements) {
     for (const KernelChoice& kernel : {spline, steep}) {
       for (const int model : {1, 2}) {
         const Subject one = subject(model, kernel, arrangement, "lee-du-2019", true);
         INFO(scheme_label(one.scheme, false) << ", " << name_of(arrangement));
-        CHECK(step_is_bounded(one, sweep, StepCondition::corrected).take().judgement.verdict == Verdict::holds);
-        CHECK(step_is_bounded(one, sweep, StepCondition::corrected, 1.5).take().judgement.verdict == Verdict::violated);
+        CHECK(step_is_bounded(one, resolutions, StepCondition::corrected).take().judgement.verdict == Verdict::holds);
+        CHECK(step_is_bounded(one, resolutions, StepCondition::corrected, 1.5).take().judgement.verdict ==
+              Verdict::violated);
         const bool enough = model == 1 || kernel.name == "cubic-spline";
-        CHECK(step_is_bounded(one, sweep, StepCondition::printed).take().judgement.verdict ==
+        CHECK(step_is_bounded(one, resolutions, StepCondition::printed).take().judgement.verdict ==
               (enough ? Verdict::holds : Verdict::violated));
       }
     }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -7,8 +9,8 @@
 
 #include "solver/far/far_sweeps.hpp"
 #include "studies/models/scheme.hpp"
-#include "studies/running/ensemble/ensemble.hpp"
 #include "studies/running/ensemble/sweep_group.hpp"
+#include "studies/running/run_case.hpp"
 #include "studies/running/stopwatch.hpp"
 #include "tests/catch.hpp"
 #include "tests/general_tables.hpp"
@@ -62,7 +64,8 @@ struct Swept {
 Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector<double>& u, bool with_twin,
                   int threads = 1) {
   Team team(threads);
-  SharedParticles particles(*c.scene, x,
+  const VelocitySeries velocity(*c.scene);
+  SharedParticles particles(*c.scene, velocity, x,
                             {.c_hat = true,
                              .c_and_b = true,
                              .b_prime = true,
@@ -233,7 +236,7 @@ TEST_CASE("Velocities at midpoints may have any few modes, in common or not", "[
     CAPTURE(c, b);
     const auto scene = std::make_shared<const Scene>(
         SceneText{.name = {}, .period = "2*pi", .T = "1", .c = c, .b = b, .u = "cos(x - t)", .flow = {}});
-    REQUIRE(midpoint_modes(VelocitySeries(*scene)));
+    REQUIRE(VelocitySeries(*scene).modes);
     check_forms_agree(scene, x, 0.7);
   }
 }
@@ -269,6 +272,22 @@ std::vector<Case> far_cases(const std::shared_ptr<const Scene>& scene) {
 }
 
 }  // namespace
+
+TEST_CASE("A case is run in the first form that takes it", "[vector]") {
+  const auto form = [](const Case& c) { return plan(c).form->name; };
+  const auto scene = random_scene(5);
+  for (Case c : far_cases(scene)) {
+    CAPTURE(c.key());
+    CHECK(form(c) == "vector with far sums");
+    c.delta = 0.01 * scene->period();
+    CHECK(form(c) == "vector");
+    c.integrator = std::find_if(std::begin(integrators), std::end(integrators), std::mem_fn(&Integrator::implicit));
+    CHECK(form(c) == "readable with implicit steps");
+    c.integrator = &forward_euler;
+    c.readable = true;
+    CHECK(form(c) == "readable");
+  }
+}
 
 TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
   const auto scene = random_scene(5);
@@ -346,7 +365,7 @@ TEST_CASE("A run in the vector form ends where the readable one does, whatever t
               c.step = {.bound = StepRule::Bound::lemma, .safety = 0.5, .text = "cfl"};
             }
             CAPTURE(c.key());
-            REQUIRE(runs_in_vector_form(c));
+            REQUIRE(plan(c).form->together);
             const CaseResult vector = result_of(c, false), readable = result_of(c, true);
             CHECK(relative_gap(vector.u, readable.u) <= 1e-12);
             CHECK(relative_gap(vector.x, readable.x) <= 1e-14);
@@ -385,14 +404,13 @@ TEST_CASE("Cases that share their particles end as each would alone", "[vector]"
     }
   }
   std::vector<const Case*> together;
-  for (const Case& c : cases) {
-    together.push_back(&c);
-    CHECK(ensemble_key(c) == ensemble_key(cases.front()));
-  }
+  for (const Case& c : cases) together.push_back(&c);
+  const std::vector<Plan> plans = plan(together);
+  for (const Plan& one : plans) CHECK(one.particles == plans.front().particles);
   const std::atomic<bool> stop{false};
   double seconds = 0.0, passed = 0.0;
   std::vector<CaseResult> results;
-  timed(passed, [&] { results = run_cases(together, stop); });
+  timed(passed, [&] { results = run_cases(plans, stop); });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     CAPTURE(cases[i].key());
     CHECK(results[i].u == result_of(cases[i], false).u);
@@ -413,7 +431,7 @@ TEST_CASE("Cases that would take too long together are put off, and end as each 
   const std::atomic<bool> stop{false};
   std::size_t rounds = 0;
   for (; !open.empty(); ++rounds) {
-    const std::vector<CaseResult> results = run_cases(open, stop, 2, 1, 1e-9);
+    const std::vector<CaseResult> results = run_cases(plan(open), stop, 2, 1, 1e-9);
     std::vector<const Case*> put_off;
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (results[i].completed) {
@@ -437,9 +455,10 @@ TEST_CASE("A case that fails takes none of those along that share its particles"
   Case failing = case_on(scene, 1, true, {"inverse"}, 40, 3.0);
   failing.nonlocal_source = true;
   const Case* const together[] = {&failing, &sound};
-  REQUIRE(ensemble_key(failing) == ensemble_key(sound));
+  const std::vector<Plan> plans = plan(together);
+  REQUIRE(plans[0].particles == plans[1].particles);
   const std::atomic<bool> stop{false};
-  const std::vector<CaseResult> results = run_cases(together, stop);
+  const std::vector<CaseResult> results = run_cases(plans, stop);
   CHECK(!results[0].failure.empty());
   CHECK(results[1].failure.empty());
   CHECK(results[1].u == result_of(sound, false).u);
@@ -469,7 +488,7 @@ TEST_CASE("Velocities that are no short trigonometric series run in the vector f
                      .dt = 1.0 / 240.0,
                      .steps = 60};
         CAPTURE(c.key());
-        CHECK(runs_in_vector_form(c) == (smooth || model == 1));
+        CHECK(plan(c).form->together == (smooth || model == 1));
         CHECK(relative_gap(result_of(c, false).u, result_of(c, true).u) <= 1e-12);
         CHECK(result_of(c, false, 2).u == result_of(c, false).u);
       }

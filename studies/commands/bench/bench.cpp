@@ -64,7 +64,7 @@ Bench plan_bench(std::span<const Study> studies, const std::vector<int>& threads
       for (const int count : threads) {
         BenchSeries& planned = bench.series.emplace_back(BenchSeries{&study, &series, count, {}});
         for (const Case& c : series.cases) {
-          const BenchCase one{.c = &c, .threads = count, .result = {}, .samples = {}};
+          const BenchCase one{.c = &c, .threads = count, .form = {}, .result = {}, .samples = {}};
           const auto [entry, is_new] = index_of.try_emplace(bench_key(one), bench.cases.size());
           if (is_new) bench.cases.push_back(one);
           planned.cases.push_back(entry->second);

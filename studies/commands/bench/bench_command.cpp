@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "studies/commands/bench/bench.hpp"
@@ -51,6 +52,8 @@ void show_progress(std::int64_t round, std::size_t open, std::size_t cases) {
 BenchResult bench_studies(const std::vector<Study>& studies, const BenchRequest& request,
                           const std::atomic<bool>& stop) {
   Bench bench = plan_bench(studies, request.options.threads);
+  std::map<const Case*, Plan> plans;
+  for (BenchCase& one : bench.cases) one.form = plans.try_emplace(one.c, plan(*one.c)).first->second.form->name;
   if (!request.fresh) take_up_bench(request.out, bench);
   const Provenance provenance = collect_provenance(1, request.command);
   const auto write = [&](bool complete) { write_bench(request.out, bench, request.options, provenance, complete); };
@@ -58,14 +61,13 @@ BenchResult bench_studies(const std::vector<Study>& studies, const BenchRequest&
   const auto start = std::chrono::steady_clock::now();
   auto written = start;
   const bool on_terminal = isatty(STDERR_FILENO) != 0;
-  const BenchHooks hooks = {.run = [&](const Case& c, int threads) { return run_case(c, stop, 1, threads); },
-                            .after_round =
-                                [&](std::int64_t round, std::size_t open) {
-                                  if (on_terminal) show_progress(round, open, bench.cases.size());
-                                  if (seconds_since(written) < 1.0) return;
-                                  write(false);
-                                  written = std::chrono::steady_clock::now();
-                                }};
+  const auto run = [&](const Case& c, int threads) { return run_cases({&plans.at(&c), 1}, stop, 1, threads).front(); };
+  const BenchHooks hooks = {.run = run, .after_round = [&](std::int64_t round, std::size_t open) {
+                              if (on_terminal) show_progress(round, open, bench.cases.size());
+                              if (seconds_since(written) < 1.0) return;
+                              write(false);
+                              written = std::chrono::steady_clock::now();
+                            }};
   BenchResult result{.outcome = time_cases(bench, request.options, hooks, stop), .cases = bench.cases.size()};
   result.complete = !stop && result.outcome.departs.empty();
   result.seconds = seconds_since(start);

@@ -6,36 +6,32 @@
 #include <string>
 #include <utility>
 
-#include "studies/running/ensemble/ensemble.hpp"
-
 namespace acstudy {
 
 namespace {
 
-/// Cases that share their sweeps, by what they share: particles, then sweeps.
-using BatchesBySweep = std::map<std::pair<std::string, std::string>, Batch>;
+/// Cases that share their sums over pairs, by what they share: particles, then pairs.
+using Groups = std::map<std::pair<std::string, std::string>, Batch>;
 
-BatchesBySweep sweeps_of(std::span<const Case* const> cases, std::span<const std::size_t> which) {
-  BatchesBySweep sweeps;
+Groups groups_of(std::span<const Plan> plans, std::span<const std::size_t> which) {
+  Groups groups;
   for (const std::size_t i : which) {
-    const Case& c = *cases[i];
-    const bool vector = runs_in_vector_form(c);
-    Batch& batch = sweeps[vector ? std::pair(ensemble_key(c), sweep_key(c)) : std::pair(c.key(), std::string())];
-    batch.cases.push_back(i);
-    batch.work += c.estimated_work();
+    Batch& group = groups[{plans[i].particles, plans[i].pairs}];
+    group.cases.push_back(i);
+    group.work += plans[i].c->estimated_work();
   }
-  return sweeps;
+  return groups;
 }
 
-/// Puts sweeps on the same particles together, up to `most` work a batch. Heaviest batch first.
-std::vector<Batch> batches_up_to(double most, const BatchesBySweep& sweeps) {
+/// Puts groups on the same particles together, up to `most` work a batch. Heaviest batch first.
+std::vector<Batch> batches_up_to(double most, const Groups& groups) {
   std::vector<Batch> batches;
   const std::string* particles = nullptr;
-  for (const auto& [key, sweep] : sweeps) {
-    const bool joins = particles != nullptr && *particles == key.first && batches.back().work + sweep.work <= most;
+  for (const auto& [key, group] : groups) {
+    const bool joins = particles != nullptr && *particles == key.first && batches.back().work + group.work <= most;
     if (!joins) batches.emplace_back();
-    batches.back().cases.insert(batches.back().cases.end(), sweep.cases.begin(), sweep.cases.end());
-    batches.back().work += sweep.work;
+    batches.back().cases.insert(batches.back().cases.end(), group.cases.begin(), group.cases.end());
+    batches.back().work += group.work;
     particles = &key.first;
   }
   std::stable_sort(batches.begin(), batches.end(), [](const Batch& a, const Batch& b) { return a.work > b.work; });
@@ -51,21 +47,21 @@ double longest_share(const std::vector<Batch>& batches, int workers) {
 
 }  // namespace
 
-std::vector<Batch> batches_up_to(double most, std::span<const Case* const> cases, std::span<const std::size_t> which) {
-  return batches_up_to(most, sweeps_of(cases, which));
+std::vector<Batch> batches_up_to(double most, std::span<const Plan> plans, std::span<const std::size_t> which) {
+  return batches_up_to(most, groups_of(plans, which));
 }
 
-std::vector<Batch> batches_of(std::span<const Case* const> cases, int workers) {
-  std::vector<std::size_t> all(cases.size());
+std::vector<Batch> batches_of(std::span<const Plan> plans, int workers) {
+  std::vector<std::size_t> all(plans.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const BatchesBySweep sweeps = sweeps_of(cases, all);
+  const Groups groups = groups_of(plans, all);
   double total = 0.0;
-  for (const auto& [key, sweep] : sweeps) total += sweep.work;
+  for (const auto& [key, group] : groups) total += group.work;
   for (const double parts : {1.0, 2.0}) {
-    auto batches = batches_up_to(total / (parts * workers), sweeps);
+    auto batches = batches_up_to(total / (parts * workers), groups);
     if (longest_share(batches, workers) <= 1.03 * total / workers) return batches;
   }
-  return batches_up_to(total / (4.0 * workers), sweeps);
+  return batches_up_to(total / (4.0 * workers), groups);
 }
 
 }  // namespace acstudy

@@ -1,7 +1,5 @@
 #include "studies/running/ensemble/ensemble.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,57 +16,15 @@ namespace acstudy {
 
 namespace {
 
-/// How far midpoints are from the middle of a vector of particles, at the start or at T.
-double panel_reach(const Case& c) {
-  std::vector<double> x = start_positions(c.start, static_cast<std::size_t>(c.N), c.scene->period());
-  const double at_start = gaps(x, c.scene->period()).largest;
-  Trajectories trajectories(*c.scene, x);
-  const auto at_end = trajectories.at(c.scene->T());
-  const double largest = std::max(at_start, gaps({at_end.begin(), at_end.end()}, c.scene->period()).largest);
-  return midpoint_reach(c.delta, largest);
-}
-
-}  // namespace
-
-bool runs_in_vector_form(const Case& c) {
-  if (c.readable) return false;
-  if (c.integrator->implicit() || c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows) return false;
-  if (c.scene->standing()) return true;
-  switch (c.scheme.model->vector_form) {
-    case VectorForm::none:
-      return false;
-    case VectorForm::upwind:
-      return true;
-    case VectorForm::symmetric:
-      return midpoint_modes(VelocitySeries(*c.scene)) || VelocityPanels::find(*c.scene, panel_reach(c));
-  }
-  return false;
-}
-
-std::string ensemble_key(const Case& c) {
-  const SceneText& text = c.scene->text();
-  const std::string bound =
-      c.step.bound == StepRule::Bound::none ? "" : fmt::format("|{:.17g}", c.step.safety * c.lemma_bound(1.0));
-  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}{}|{}{:.17g}", text.period, text.T, text.c, text.b.value_or(""),
-                     text.solution(), text.flow.value_or(""), c.integrator->name, c.N, c.steps, bound, c.start.label(),
-                     c.start.smallest_gap);
-}
-
-std::string sweep_key(const Case& c) {
-  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model->number, c.scheme.kernel.label(), c.delta, c.mu);
-}
-
-namespace {
-
 class Ensemble {
  public:
-  Ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop, double most_seconds)
+  Ensemble(std::span<const Plan> plans, int threads, const std::atomic<bool>& stop, double most_seconds)
       : stop_(stop),
         most_seconds_(most_seconds),
         team_(threads),
-        scene_(*cases.front()->scene),
-        first_(*cases.front()) {
-    timed(setup_seconds_, [&] { set_up(cases); });
+        scene_(*plans.front().c->scene),
+        first_(*plans.front().c) {
+    timed(setup_seconds_, [&] { set_up(plans); });
   }
 
   std::vector<CaseResult> run() {
@@ -100,11 +56,12 @@ class Ensemble {
   }
 
  private:
-  void set_up(std::span<const Case* const> cases) {
+  void set_up(std::span<const Plan> plans) {
     const auto count = static_cast<std::size_t>(first_.N);
     Needs needs;
-    members_.reserve(cases.size());
-    for (const Case* c : cases) {
+    members_.reserve(plans.size());
+    for (const Plan& plan : plans) {
+      const Case* const c = plan.c;
       Member& m = members_.emplace_back(*c, count, team_);
       add_source(m, count);
       const bool moving = !scene_.standing(), local = !c->scheme.nonlocal_divergence;
@@ -118,7 +75,8 @@ class Ensemble {
       needs.c_hat |= c->scheme.model->continuum->sided && m.source->is_series() && c->nonlocal_source;
       needs.delta = std::max(needs.delta, c->delta);
     }
-    particles_.emplace(scene_, start_positions(first_.start, count, scene_.period()), needs, team_);
+    particles_.emplace(scene_, *plans.front().velocity, start_positions(first_.start, count, scene_.period()), needs,
+                       team_);
     PerThread<double> largest(team_, 0.0);
     particles_->move(0.0, [&](const Piece& piece, Laps&) {
       const auto u = piece.of(members_.front().values.u.values());
@@ -345,9 +303,9 @@ class Ensemble {
 
 }  // namespace
 
-std::vector<CaseResult> run_ensemble(std::span<const Case* const> cases, int threads, const std::atomic<bool>& stop,
+std::vector<CaseResult> run_ensemble(std::span<const Plan> plans, int threads, const std::atomic<bool>& stop,
                                      double most_seconds) {
-  return Ensemble(cases, threads, stop, most_seconds).run();
+  return Ensemble(plans, threads, stop, most_seconds).run();
 }
 
 }  // namespace acstudy

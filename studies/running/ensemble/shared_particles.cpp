@@ -56,28 +56,11 @@ double midpoint_reach(double delta, double largest_gap) {
   return 0.625 * (std::max(delta, largest_gap) + sweeps().lanes * largest_gap);
 }
 
-VelocitySeries::VelocitySeries(const Scene& scene) {
-  const auto series = [&](const Field& field) {
-    return trigonometric_series(field, scene.period(), most_series_modes);
-  };
-  c = series([&](auto x, auto out) { scene.c(x, out); });
-  c_hat = c;
-  if (scene.standing()) return;
-  b = series([&](auto x, auto out) { scene.b(x, out); });
-  b_prime = series([&](auto x, auto out) { scene.b_prime(x, out); });
-  if (!b) c_hat.reset();
-  if (!c_hat) return;
-  c_hat->constant -= b->constant;
-  for (auto [coefficients, of_b] : {std::pair(&c_hat->cosine, &b->cosine), std::pair(&c_hat->sine, &b->sine)}) {
-    coefficients->resize(std::max(coefficients->size(), of_b->size()));
-    for (std::size_t i = 0; i < of_b->size(); ++i) (*coefficients)[i] -= (*of_b)[i];
-  }
-}
+namespace {
 
-std::optional<MidpointModes> midpoint_modes(const VelocitySeries& velocity) {
-  if (!velocity.c || !velocity.b) return std::nullopt;
+std::optional<MidpointModes> midpoint_modes(const TrigonometricSeries& of_c, const TrigonometricSeries& of_b) {
   MidpointModes modes;
-  for (auto [series, field] : {std::pair(&*velocity.c, &modes.c), std::pair(&*velocity.b, &modes.b)}) {
+  for (auto [series, field] : {std::pair(&of_c, &modes.c), std::pair(&of_b, &modes.b)}) {
     field->constant = series->constant;
     for (std::size_t i = 0; i < series->highest(); ++i) {
       if (series->cosine[i] == 0.0 && series->sine[i] == 0.0) continue;
@@ -94,17 +77,39 @@ std::optional<MidpointModes> midpoint_modes(const VelocitySeries& velocity) {
   return modes;
 }
 
-SharedParticles::SharedParticles(const Scene& scene, std::vector<double> start, Needs needs, Team& team)
+}  // namespace
+
+VelocitySeries::VelocitySeries(const Scene& scene) {
+  const auto series = [&](const Field& field) {
+    return trigonometric_series(field, scene.period(), most_series_modes);
+  };
+  c = series([&](auto x, auto out) { scene.c(x, out); });
+  c_hat = c;
+  if (scene.standing()) return;
+  b = series([&](auto x, auto out) { scene.b(x, out); });
+  b_prime = series([&](auto x, auto out) { scene.b_prime(x, out); });
+  if (!b) c_hat.reset();
+  if (!c_hat) return;
+  modes = midpoint_modes(*c, *b);
+  c_hat->constant -= b->constant;
+  for (auto [coefficients, of_b] : {std::pair(&c_hat->cosine, &b->cosine), std::pair(&c_hat->sine, &b->sine)}) {
+    coefficients->resize(std::max(coefficients->size(), of_b->size()));
+    for (std::size_t i = 0; i < of_b->size(); ++i) (*coefficients)[i] -= (*of_b)[i];
+  }
+}
+
+SharedParticles::SharedParticles(const Scene& scene, const VelocitySeries& velocity, std::vector<double> start,
+                                 Needs needs, Team& team)
     : x(start.size()),
       scene_(scene),
       needs_(needs),
       team_(team),
-      series_(scene),
+      series_(velocity),
       start_(std::move(start)),
       wrapped_(std::min<std::ptrdiff_t>(32, x.margin())) {
   if (!scene.standing()) trajectories_.emplace(scene, start_);
   if (needs.midpoints) {
-    modes = midpoint_modes(series_);
+    modes = series_.modes;
     const std::size_t count = modes ? modes->number.size() : 0;
     mode_cosine.resize(count);
     mode_sine.resize(count);

@@ -16,20 +16,18 @@
 
 namespace acstudy {
 
-/// The velocities of a scene as short trigonometric series, where they are such; those of b where particles move.
-struct VelocitySeries {
-  std::optional<TrigonometricSeries> c, b, b_prime;
-  std::optional<TrigonometricSeries> c_hat;  ///< c - b, where both are
-  explicit VelocitySeries(const Scene& scene);
-};
-
 /// The modes that c and b have at midpoints.
 struct MidpointModes {
   std::vector<int> number;  ///< n of each, at most `most_modes`
   SweepField c, b;
 };
-/// None where the velocities are no series of few enough modes.
-std::optional<MidpointModes> midpoint_modes(const VelocitySeries& velocity);
+/// The velocities of a scene as short trigonometric series, where they are such; those of b where particles move.
+struct VelocitySeries {
+  std::optional<TrigonometricSeries> c, b, b_prime;
+  std::optional<TrigonometricSeries> c_hat;  ///< c - b, where both are
+  std::optional<MidpointModes> modes;        ///< none where c and b are no series of few enough modes
+  explicit VelocitySeries(const Scene& scene);
+};
 
 /// An upper bound of the distance from the middle of a vector of particles to their midpoints with neighbors, with some
 /// room for gaps that grow.
@@ -47,8 +45,9 @@ struct Needs {
 
 class SharedParticles {
  public:
-  /// @param scene  outlives the particles
-  SharedParticles(const Scene& scene, std::vector<double> start, Needs needs, Team& team);
+  /// @param scene, velocity  outlive the particles
+  SharedParticles(const Scene& scene, const VelocitySeries& velocity, std::vector<double> start, Needs needs,
+                  Team& team);
 
   /// What is done with the particles of a piece, each alone, once they are where they are meant to be.
   using AndThen = std::function<void(const Piece&, Laps&)>;
@@ -91,7 +90,7 @@ class SharedParticles {
   const Scene& scene_;
   Needs needs_;
   Team& team_;
-  VelocitySeries series_;
+  const VelocitySeries& series_;
   std::optional<Trajectories> trajectories_;  ///< none where particles stand still
   std::vector<double> start_;
   PeriodicArray cosine_, sine_;            ///< of w x, where they are needed

@@ -57,6 +57,13 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
   work_.weight_builds = 1;
 }
 
+bool SweepGroup::far_pays(const Case& c, bool modes) {
+  const SweepKernel kernel = Kernel(c.scheme.kernel).sweep;
+  const double neighbors = c.delta / c.scene->period() * static_cast<double>(c.N);
+  return c.scheme.model == 1 ? far::far_pays(UpwindSweep{kernel}, neighbors)
+                             : modes && far::far_pays(SymmetricSweep{.kernel = kernel}, neighbors);
+}
+
 SweepGroup::~SweepGroup() = default;
 SweepGroup::SweepGroup(SweepGroup&&) noexcept = default;
 

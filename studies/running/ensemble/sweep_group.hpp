@@ -29,6 +29,11 @@ class SweepGroup {
   ~SweepGroup();
   SweepGroup(SweepGroup&&) noexcept;
 
+  /// True if a case on moving particles has so many neighbors that sums over far ones by boxes are the faster, alone.
+  /// Two cases that share their sums have them where that pays for both; see far::far_pays().
+  /// @param modes  the scene's velocities are series of few modes
+  static bool far_pays(const Case& c, bool modes);
+
   /// True if the case can be added: the same model, kernel, horizon and viscosity, and another divergence than those
   /// already there.
   bool takes(const Case& c) const;

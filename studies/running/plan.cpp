@@ -1,0 +1,100 @@
+#include "studies/running/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "studies/running/ensemble/shared_particles.hpp"
+#include "studies/running/ensemble/sweep_group.hpp"
+
+namespace acstudy {
+
+namespace {
+
+/// How far midpoints are from the middle of a vector of particles, at the start or at T.
+double panel_reach(const Case& c) {
+  std::vector<double> x = start_positions(c.start, static_cast<std::size_t>(c.N), c.scene->period());
+  const double at_start = gaps(x, c.scene->period()).largest;
+  Trajectories trajectories(*c.scene, x);
+  const auto at_end = trajectories.at(c.scene->T());
+  const double largest = std::max(at_start, gaps({at_end.begin(), at_end.end()}, c.scene->period()).largest);
+  return midpoint_reach(c.delta, largest);
+}
+
+bool has_panels(const Case& c) {
+  try {
+    return VelocityPanels::find(*c.scene, panel_reach(c)).has_value();
+  } catch (const std::domain_error&) {
+    return false;  // the flow cannot be integrated, which the run itself comes to say
+  }
+}
+
+/// What the sums over several particles at a time are not made for.
+bool asks_for_readable(const Case& c) {
+  return c.readable || c.scheme.model->vector_form == VectorForm::none || c.integrator->implicit() ||
+         c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows;
+}
+
+/// Velocities at midpoints, of symmetric sums on moving particles, have to be short trigonometric series, or smooth
+/// enough for polynomials on panels.
+bool vector_takes(const Plan& plan) {
+  const Case& c = *plan.c;
+  if (asks_for_readable(c)) return false;
+  return c.scene->standing() || c.scheme.model->vector_form == VectorForm::upwind || plan.velocity->modes ||
+         has_panels(c);
+}
+
+bool far_takes(const Plan& plan) {
+  return !asks_for_readable(*plan.c) && !plan.c->scene->standing() &&
+         SweepGroup::far_pays(*plan.c, plan.velocity->modes.has_value());
+}
+
+constexpr Form table[] = {
+    {"vector with far sums", far_takes, true},
+    {"vector", vector_takes, true},
+    {"readable with implicit steps", [](const Plan& plan) { return plan.c->integrator->implicit(); }, false},
+    {"readable", [](const Plan&) { return true; }, false}};
+
+/// What decides where particles are, and when.
+std::string particles_of(const Case& c) {
+  const SceneText& text = c.scene->text();
+  const std::string bound =
+      c.step.bound == StepRule::Bound::none ? "" : fmt::format("|{:.17g}", c.step.safety * c.lemma_bound(1.0));
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}{}|{}{:.17g}", text.period, text.T, text.c, text.b.value_or(""),
+                     text.solution(), text.flow.value_or(""), c.integrator->name, c.N, c.steps, bound, c.start.label(),
+                     c.start.smallest_gap);
+}
+
+std::string pairs_of(const Case& c) {
+  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model->number, c.scheme.kernel.label(), c.delta, c.mu);
+}
+
+}  // namespace
+
+std::span<const Form> forms() { return table; }
+
+std::vector<Plan> plan(std::span<const Case* const> cases) {
+  std::map<const Scene*, std::shared_ptr<const VelocitySeries>> velocities;
+  std::vector<Plan> plans;
+  for (const Case* c : cases) {
+    Plan& plan = plans.emplace_back(Plan{.c = c});
+    if (!asks_for_readable(*c)) {
+      auto& velocity = velocities[c->scene.get()];
+      if (!velocity) velocity = std::make_shared<const VelocitySeries>(*c->scene);
+      plan.velocity = velocity;
+    }
+    plan.form = std::find_if(std::begin(table), std::end(table), [&](const Form& form) { return form.takes(plan); });
+    plan.particles = plan.form->together ? particles_of(*c) : c->key();
+    if (plan.form->together) plan.pairs = pairs_of(*c);
+  }
+  return plans;
+}
+
+Plan plan(const Case& c) {
+  const Case* const one = &c;
+  return plan({&one, 1}).front();
+}
+
+}  // namespace acstudy

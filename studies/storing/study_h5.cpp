@@ -11,7 +11,6 @@
 
 #include "build_info.hpp"
 #include "studies/storing/case_h5.hpp"
-#include "studies/storing/estimates.hpp"
 #include "studies/storing/files.hpp"
 #include "studies/storing/finding_h5.hpp"
 #include "studies/storing/keys.hpp"
@@ -24,7 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* format = "acstudy-1";
 
-void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
+/// @param finding  the verdict on the series; none where it is the evidence of other findings
+void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result, const Finding* finding) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
   h5::write_number<std::int64_t>(group, "model", series.scheme.model);
@@ -41,18 +41,14 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
   h5::write_text(group, "stepping", series.stepping);
   h5::write_text(group, "motion", series.cases.front().scene->standing() ? "standing" : "moving");
   h5::write_text(group, "theory_variable", series.theory.variable);
-  h5::write_number(group, "theory_order", series.theory.order);
   h5::write_text(group, "theory_statement", series.theory.statement);
-  for (const auto& [name, value] : named_estimates(result.judgement)) {
-    h5::write_number(group, "observed_" + name, value);
-  }
-  h5::write_number(group, "extrapolated_order", result.judgement.extrapolated);
-  h5::write_text(group, "verdict", std::string(name_of(result.judgement.verdict)));
-  h5::write_text(group, "expected", std::string(name_of(series.expected)));
-  h5::write_number<std::int64_t>(group, "as_expected", result.as_expected() ? 1 : 0);
-  h5::write_text(group, "reason", result.judgement.reason);
   h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
-  h5::write_column<double>(group, "pairwise", result.judgement.pairwise);
+  if (finding != nullptr) {
+    write_verdict(group, *finding);
+    h5::write_column<double>(group, "pairwise", finding->judgement.pairwise);
+  } else {
+    h5::write_number(group, "theory_order", series.theory.order);
+  }
 
   write_cases(group, result, result.completed_levels());
   if (result.reference() != nullptr) {
@@ -113,13 +109,18 @@ std::vector<char> study_h5(const StudyResult& result, const Provenance& provenan
     if (text.flow) h5::write_text(scene, "flow", *text.flow);
   }
   const h5::Handle series = h5::create_group(root, "series");
+  std::vector<const Finding*> verdicts(result.series.size());
+  for (const auto& finding : result.findings) {
+    if (finding && finding->series) verdicts[*finding->series] = &*finding;
+  }
   for (std::size_t i = 0; i < result.series.size(); ++i) {
-    write_series(series, fmt::format("{:03}", i), result.series[i]);
+    write_series(series, fmt::format("{:03}", i), result.series[i], verdicts[i]);
   }
   const h5::Handle findings = h5::create_group(root, "findings");
   h5::write_text(root, "findings_key", findings_key(study));
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
-    if (result.findings[i]) write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
+    if (result.findings[i] && !result.findings[i]->series)
+      write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
   }
   return h5::image(root);
 }

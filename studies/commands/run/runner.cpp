@@ -150,7 +150,7 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
     run.studies.push_back({&study, {}, {}});
     open_cases.push_back(0);
     for (const Series& series : study.series) {
-      auto& results = run.studies.back().series.emplace_back(SeriesResult{&series, {}, {}}).results;
+      auto& results = run.studies.back().series.emplace_back(SeriesResult{&series, {}}).results;
       results.resize(series.cases.size());
       for (std::size_t i = 0; i < series.cases.size(); ++i) {
         const std::string key = storage_key(series.cases[i]);
@@ -176,6 +176,7 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
     const bool reusable = open_cases[s] == 0 && stored.findings_key == findings_key(study) && !options.fresh;
     bool measured = true;
     for (std::size_t i = 0; i < study.measurements.size(); ++i) {
+      if (study.measurements[i].check.series) continue;  // taken whenever the study is written, be it interrupted
       if (const auto found = stored.findings.find(i); reusable && found != stored.findings.end()) {
         run.studies[s].findings[i] = found->second;
         // The store has their values, but not what a reader sees of them.
@@ -195,7 +196,10 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   const auto finish = [&](std::size_t s) {
     for (SeriesResult& series : run.studies[s].series) {
       if (series.series->against_reference) compare_with_reference(*series.series, series.results);
-      series.judgement = judge_series(*series.series, series.results);
+    }
+    for (std::size_t i = 0; i < studies[s].measurements.size(); ++i) {
+      const Measurement& measurement = studies[s].measurements[i];
+      if (measurement.check.series) run.studies[s].findings[i] = measurement.take(run.studies[s].series);
     }
     write_results(options.out, run.studies[s], provenance[s]);
     finished[s] = true;
@@ -203,7 +207,10 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
   };
   const auto finish_if_complete = [&](std::size_t s) {
     const auto& findings = run.studies[s].findings;
-    if (open_cases[s] == 0 && std::all_of(findings.begin(), findings.end(), [](const auto& f) { return f; })) finish(s);
+    const auto& planned = studies[s].measurements;
+    const bool complete = std::equal(planned.begin(), planned.end(), findings.begin(),
+                                     [](const auto& one, const auto& f) { return one.check.series || f; });
+    if (open_cases[s] == 0 && complete) finish(s);
   };
   for (std::size_t s = 0; s < studies.size(); ++s) finish_if_complete(s);
 

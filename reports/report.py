@@ -44,7 +44,7 @@ def main(arguments=None):
 def report(folder, files):
     """Draws every figure of the result files and benches and the pages into `folder`; the path of the first page."""
     from drawing import processes
-    from kinds import convergence, registry
+    from kinds import registry, run_times
     from kinds.bench import figures as bench_figures
     from pages import bench as bench_page, claims, comparison, mutants, page
     from reading import bench_results, results
@@ -53,11 +53,11 @@ def report(folder, files):
     _refuse_clashes(studies)
     seeded, compared = mutants.read(folder), comparison.read(folder)
     benches = bench_results.read_all(folder)
-    styles = convergence.scheme_styles(studies)
+    styles = registry.styles(studies)
     drawings = {}
     names = (*(study.name for study in studies), "cost", "bench")
     tasks = [*((registry.drawings, study, styles) for study in studies),
-             (convergence.cost_drawings, studies, styles), (bench_figures.drawings, benches, styles)]
+             (run_times.drawings, registry.with_run_times(studies), styles), (bench_figures.drawings, benches, styles)]
     with closing(processes.in_turn(tasks, len(studies) + bool(benches))) as drawn_in_turn:
         for name, drawn in zip(names, drawn_in_turn):
             for one in drawn:

@@ -10,6 +10,12 @@ import numpy as np
 GAP, LABEL, CUT = 0.18, 0.22, 0.6
 
 
+def drawable(x, y):
+    """(x, y) with NaN where a point has no place on logarithmic axes: a curve breaks there."""
+    good = np.isfinite(x) & np.isfinite(y) & (x > 0) & (y > 0)
+    return np.where(good, x, np.nan), np.where(good, y, np.nan)
+
+
 def padded(values, part=0.06):
     """Limits around positive finite values, wider by `part` of their logarithmic range; (0.1, 1) for no values."""
     if len(values) == 0:

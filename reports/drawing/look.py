@@ -71,6 +71,17 @@ def add_axes(figure, left, bottom, width, height, **more):
     return figure.add_axes((left / across, bottom / up, width / across, height / up), **more)
 
 
+def foot_legend(figure, left, keys, texts, columns, spacing=2.0, bottom=0.1, **more):
+    """A legend whose lower left corner is at a place in inches. `texts`: as matplotlib sets them."""
+    figure.legend(keys, texts, loc="lower left", ncol=columns, columnspacing=spacing,
+                  bbox_to_anchor=(left / WIDTH, bottom / figure.get_figheight()), **LEGEND | more)
+
+
+def mark_departing(panel, x, y, width=4):
+    """A wide pale red line behind the curve of what is not as expected."""
+    panel.plot(x, y, color=DEPARTING, linewidth=width, alpha=0.35, zorder=1)
+
+
 def render(figure, title):
     """The figure as {"svg": bytes, "png": bytes}, with no date inside."""
     images = {}

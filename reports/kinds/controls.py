@@ -5,8 +5,10 @@ import textwrap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from drawing.look import COLORS, DEPARTING, GRAY, LEGEND, WIDTH, Drawing, add_axes, blank, typography
+from drawing.look import COLORS, DEPARTING, GRAY, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from kinds.kind import Kind
 from reading import names
+from writing import markup
 
 QUIET, ALARM = "#EDF0F3", COLORS[0]
 COUNT = "alarms"        # the check that counts a subject's alarms; no column of its own
@@ -15,7 +17,7 @@ SHORT = {"violated": "viol.", "stagnates": "stagn.", "diverges": "div.", "unstab
 ROW, HEAD_ROOM, FOOT = 0.25, 0.12, 0.55     # inches
 
 
-def drawings(study):
+def drawings(study, styles):
     found = [finding for finding in study.findings if finding.check != COUNT]
     if not found:
         return []
@@ -74,8 +76,7 @@ def matrix(found):
                 "not as expected": Patch(facecolor="none", edgecolor=DEPARTING, linewidth=2)}
         if len(found) < len(subjects) * len(checks):
             keys["not examined"] = Line2D([], [], linestyle="none", marker="_", color=GRAY)
-        figure.legend(keys.values(), keys.keys(), loc="lower left", ncol=len(keys), columnspacing=2.0,
-                      bbox_to_anchor=(left / WIDTH, 0.12 / (head + height + FOOT)), **{**LEGEND, "handlelength": 1.6})
+        foot_legend(figure, left, keys.values(), keys.keys(), len(keys), bottom=0.12, handlelength=1.6)
         return figure
 
 
@@ -93,3 +94,14 @@ def _cell(panel, j, y, size, cell, found):
     if not all(one.as_expected for one in found):
         panel.add_patch(Rectangle((j + pad_x, y + pad_y), 1 - 2 * pad_x, size - 2 * pad_y, linewidth=2, fill=False,
                                   edgecolor=DEPARTING, zorder=5))
+
+
+def _held_to(study):
+    right = sum(finding.as_expected for finding in study.findings)
+    wrong = {finding.subject for finding in study.findings if finding.control}
+    accused = {finding.subject for finding in study.findings if finding.alarm}
+    return (f"{len(accused & wrong)} of {markup.several(len(wrong), 'wrong scheme')} and {len(accused - wrong)} true ones "
+            f"raise an alarm; {right} of {len(study.findings)} cells are as expected.")
+
+
+KIND = Kind(drawings, held_to=_held_to)

@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 
-from drawing.look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from kinds.kind import Kind
 from reading import names
 
 
-def drawings(study):
+def drawings(study, styles):
     found = [finding for finding in study.findings if finding.test == "bounds" and len(finding.points)]
     if not found:
         return []
@@ -55,8 +56,7 @@ def coverage_figure(found):
         beside.set_xlabel("all levels together")
         beside.tick_params(labelleft=False)
         texts = [f"{finding.subject}, {finding.check}" for finding in found]
-        figure.legend(handles, map(names.literal, texts), loc="lower left", ncol=2, columnspacing=2.0,
-                      bbox_to_anchor=(left / WIDTH, 0.12 / figure.get_figheight()), **LEGEND)
+        foot_legend(figure, left, handles, map(names.literal, texts), 2, bottom=0.12)
         return figure
 
 
@@ -67,3 +67,6 @@ def wilson(share, trials):
         center = (share + z ** 2 / (2 * trials)) / (1 + z ** 2 / trials)
         half = z / (1 + z ** 2 / trials) * np.sqrt(share * (1 - share) / trials + z ** 2 / (4 * trials ** 2))
     return center - half, center + half
+
+
+KIND = Kind(drawings)

@@ -11,7 +11,8 @@ import matplotlib
 import numpy as np
 
 from drawing import axes
-from drawing.look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from kinds.kind import Kind
 from reading import names
 
 # Refinement paths: name, horizon at spacing h, dashes.
@@ -21,8 +22,8 @@ PATHS = ((r"$\delta=4h$", lambda h: 4 * h, "solid"), (r"$\delta=\sqrt{h}$", np.s
 TARGETS = {"nonlocal": "error against the nonlocal model", "local": "error against the local equation"}
 
 
-def drawings(study):
-    planes = error_planes(study.series)
+def drawings(study, styles):
+    planes = error_planes(study.evidence)
     if not planes:
         return []
     described = "for every scheme against both targets. Values: the result file."
@@ -33,19 +34,20 @@ def drawings(study):
                 f"dots are the cases. Lines: refinement paths. {_fit_caption(study)}Asymptotic compatibility: against "
                 "the nonlocal model the error falls to the left at every horizon, against the local equation toward "
                 "the lower left, however that is approached."),
-        Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.series, planes),
+        Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.evidence, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "
                 "edge; it is wide where a cut passes from δ < h to δ > h. Right: error at the finest spacing; against "
                 "the local equation it approaches the distance of the two solutions, O(δ).")]
 
 
-def error_planes(series):
+def error_planes(evidence):
     """{(scheme, source): (h [n], delta [m], error [m, n])}, ascending; NaN: no case."""
     cases = {}
-    for one in series:
-        for h, delta, error in zip(one.cases.h, one.cases.delta, one.cases.error_linf):
-            cases.setdefault((one.scheme, one.source), {})[float(f"{h:.9g}"), float(f"{delta:.9g}")] = error
+    for one in evidence:
+        of = one.series.cases
+        for h, delta, error in zip(of.h, of.delta, of.error_linf):
+            cases.setdefault((one.series.scheme, one.series.source), {})[float(f"{h:.9g}"), float(f"{delta:.9g}")] = error
     planes = {}
     for key, found in cases.items():
         h, delta = (np.array(sorted(set(values))) for values in zip(*found))
@@ -103,9 +105,8 @@ def map_figure(study, planes):
         bar.minorticks_off()
         bar.ax.set_yscale("log")
         bar.set_label("max-norm error at $T$")
-        figure.legend([Line2D([], [], color="black", linestyle=dash, linewidth=1.2) for *_, dash in PATHS],
-                      [name for name, *_ in PATHS], loc="lower left", ncol=len(PATHS), columnspacing=2.0,
-                      bbox_to_anchor=(left / WIDTH, 0.12 / total), **LEGEND)
+        foot_legend(figure, left, [Line2D([], [], color="black", linestyle=dash, linewidth=1.2) for *_, dash in PATHS],
+                    [name for name, *_ in PATHS], len(PATHS), bottom=0.12)
         return figure
 
 
@@ -163,7 +164,7 @@ def _target(finding):
     return "nonlocal" if "nonlocal" in finding.check else "local"
 
 
-def cuts_figure(series, planes):
+def cuts_figure(evidence, planes):
     with typography():
         schemes = list(dict.fromkeys(scheme for scheme, _ in planes))
         labels = names.scheme_names(schemes)
@@ -181,8 +182,9 @@ def cuts_figure(series, planes):
         for (scheme, target), (h, delta, error) in planes.items():
             dash = DASHES[1] if target == "local" else "solid"
             errors.plot(delta, error[:, 0], linestyle=dash, **styles[scheme])
-            fits = sorted((one.cases.delta[0], one.observed_order, one.observed_low, one.observed_high)
-                          for one in series if (one.scheme, one.source) == (scheme, target) and len(one.cases))
+            fits = sorted((one.points.delta[0], one.observed_order, one.observed_low, one.observed_high)
+                          for one in evidence if (one.series.scheme, one.series.source) == (scheme, target)
+                          and len(one.points))
             if fits:
                 x, order, low, high = np.array(fits).T
                 # Schemes beside each other, for the bars of schemes that agree would hide one another.
@@ -206,6 +208,9 @@ def cuts_figure(series, planes):
         errors.set_ylabel("max-norm error at the finest $h$")
         keys = [Line2D([], [], **styles[scheme]) for scheme in schemes]
         keys += [Line2D([], [], color=GRAY, linestyle="solid"), Line2D([], [], color=GRAY, linestyle=DASHES[1])]
-        figure.legend(keys, [*(labels[scheme] for scheme in schemes), *TARGETS.values()], loc="lower left", ncol=2,
-                      columnspacing=2.5, bbox_to_anchor=(left / WIDTH, 0.12 / figure.get_figheight()), **LEGEND)
+        foot_legend(figure, left, keys, [*(labels[scheme] for scheme in schemes), *TARGETS.values()], 2, spacing=2.5,
+                    bottom=0.12)
         return figure
+
+
+KIND = Kind(drawings)

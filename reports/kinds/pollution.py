@@ -5,7 +5,8 @@ import math
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from drawing.look import COLORS, DEPARTING, GRAY, LEGEND, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from drawing.look import COLORS, DEPARTING, GRAY, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from kinds.kind import Kind
 from reading import names
 
 BARS = {"space": COLORS[0], "time": COLORS[5]}
@@ -14,7 +15,7 @@ MARKED = "/////"        # hatch of a time share of more than half
 ROW, HEAD = 0.235, 0.27     # inches
 
 
-def drawings(study):
+def drawings(study, styles):
     found = [finding for finding in study.findings if finding.points.label]
     if not found:
         return []
@@ -71,8 +72,8 @@ def shares_figure(found):
             keys["time > half"] = Patch(facecolor=BARS["time"], hatch=MARKED, edgecolor="black", linewidth=0)
         keys |= {label: Line2D([], [], linestyle="none", marker=MARKERS[i % len(MARKERS)], color=_color(i))
                  for i, label in enumerate(dots)}
-        figure.legend(keys.values(), map(names.literal, keys), loc="lower left", ncol=len(keys), columnspacing=1.5,
-                      bbox_to_anchor=(1.0 / WIDTH, 0.12 / figure.get_figheight()), **{**LEGEND, "handlelength": 1.3})
+        foot_legend(figure, 1.0, keys.values(), map(names.literal, keys), len(keys), spacing=1.5, bottom=0.12,
+                    handlelength=1.3)
         return figure
 
 
@@ -103,3 +104,6 @@ def _shares(finding):
 
 def _color(i):
     return COLORS[(i + 1) % 5]
+
+
+KIND = Kind(drawings)

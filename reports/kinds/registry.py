@@ -1,19 +1,49 @@
-"""The registry of kinds: which drawings a study gets, a row per kind of study."""
+"""The registry of kinds: a row for each, and what is asked of it."""
 
-from kinds import (controls, convergence, coverage, digits, error_map, extremes, operators, pollution, scan, stepping)
-from kinds.stability_map import maps as stability_map
-from reading.results import CONVERGENCE
+from drawing.styles import styles_of
+from kinds import (consistency, controls, convergence, corpus, coverage, digits, error_map, extremes, identities,
+                   pollution, scan, stability, stability_map, stepping)
+from kinds.kind import BY_FINDINGS, Kind
+from reading import ledger
 
-_DRAWINGS = {"consistency": operators.consistency_drawings, "identities": operators.identity_drawings,
-             "stability": operators.stability_drawings, "controls": controls.drawings, "map": error_map.drawings,
-             "pollution": pollution.drawings, "coverage": coverage.drawings, "scan": scan.drawings,
-             "digits": digits.drawings, "extremes": extremes.drawings, "stability-map": stability_map.drawings}
+KINDS = {
+    "consistency": consistency.KIND,
+    "controls": controls.KIND,
+    "convergence": convergence.KIND,
+    "corpus": corpus.KIND,
+    "coverage": coverage.KIND,
+    "digits": digits.KIND,
+    "extremes": extremes.KIND,
+    "identities": identities.KIND,
+    "map": error_map.KIND,
+    "pollution": pollution.KIND,
+    "scan": scan.KIND,
+    "stability": stability.KIND,
+    "stability-map": stability_map.KIND,
+}
+SUMMARIES = (convergence.KIND.summary, stepping.KIND.summary, BY_FINDINGS)
+
+
+def of(study):
+    """The kind of a study; one that nobody knows shows its findings."""
+    return stepping.KIND if study.steps_in_several_ways else KINDS.get(study.kind, Kind())
 
 
 def drawings(study, styles):
-    """The drawings of a study, in the order of its page. `styles`: of the convergence studies' schemes."""
-    if study.kind in _DRAWINGS:
-        return _DRAWINGS[study.kind](study)
-    if study.kind != CONVERGENCE:
-        return []
-    return stepping.drawings(study) if study.steps_in_several_ways else convergence.drawings(study, styles)
+    """The drawings of a study, in the order of its page. `styles`: of styles()."""
+    return of(study).drawings(study, styles)
+
+
+def entries(study):
+    """What a study says, a line for each finding."""
+    return ledger.entries(study, of(study).disputes)
+
+
+def styles(studies):
+    """{scheme: Style} of the schemes whose run times are compared."""
+    return styles_of(finding.series.scheme for study in with_run_times(studies) for finding in study.findings)
+
+
+def with_run_times(studies):
+    """Those whose schemes keep their looks in all figures and whose run times are compared."""
+    return [study for study in studies if of(study).run_times]

@@ -3,12 +3,13 @@
 import numpy as np
 
 from kinds.coverage import wilson
-from drawing.look import COLORS, DASHES, GRAY, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
+from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from kinds.kind import Kind
 
 FALSE, DECIDED = "false firm verdicts", "decided verdicts"
 
 
-def drawings(study):
+def drawings(study, styles):
     curves = [finding for finding in study.findings if finding.subject in (FALSE, DECIDED) and len(finding.points) > 1]
     sums = {finding.subject: finding for finding in study.findings
             if finding.subject in (FALSE, DECIDED) and len(finding.points) == 1}
@@ -50,6 +51,8 @@ def scan_figure(curves, sums):
             panel.set_ylabel(label)
             if subject == FALSE:
                 panel.set_ylim(bottom=0.0)
-        figure.legend(handles, ["all", *(finding.check for finding in found)], loc="lower left", ncol=5,
-                      bbox_to_anchor=(left / WIDTH, 0.1 / figure.get_figheight()), **LEGEND)
+        foot_legend(figure, left, handles, ["all", *(finding.check for finding in found)], 5)
         return figure
+
+
+KIND = Kind(drawings)

@@ -7,18 +7,21 @@ from matplotlib.lines import Line2D
 import numpy as np
 
 from drawing import axes
-from drawing.look import COLORS, DASHES, LEGEND, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, typography
-from writing import markup
+from drawing.look import COLORS, DASHES, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from drawing.timed import error_over_seconds
+from kinds.kind import Kind, Summary, departing_text, row_head
 from reading import names
+from writing import markup
+from writing.series import article, labeled
 
 COLUMNS = ("scheme", "path", "steps", "came to be", "as expected", "<var>N</var>", "max-norm error", "run time (s)",
            "steps taken", "longest / bound", "beyond it from", "given up at")
 
 
-def drawings(study):
+def drawings(study, styles):
     panels = {}
-    for series in study.series:
-        panels.setdefault((series.path, series.scheme), []).append(series)
+    for result in study.findings:
+        panels.setdefault((result.series.path, result.series.scheme), []).append(result)
     return [Drawing(
         study.name, study.title, run_time_figure(panels),
         f"Log-log plots of the max-norm error against run time for {study.title}, a curve per integrator and rule of "
@@ -30,18 +33,19 @@ def drawings(study):
 def run_time_figure(panels):
     """A row per path, a column per scheme, a curve per way to step."""
     with typography():
-        every = [series for group in panels.values() for series in group]
+        every = [result for group in panels.values() for result in group]
         paths = list(dict.fromkeys(path for path, _ in panels))
         schemes = list(dict.fromkeys(scheme for _, scheme in panels))
-        ways = list(dict.fromkeys(series.stepping for series in every))
+        ways = list(dict.fromkeys(result.series.stepping for result in every))
         labels = names.scheme_names(schemes)
         left, right, gap, above, between = 0.85, 0.1, 0.16, 0.5, 0.3
         foot = 0.75 + math.ceil(len(ways) / 2) * LINE * 1.6
         width = min(4.0, (WIDTH - left - right - (len(schemes) - 1) * gap) / len(schemes))
         tall = 2.4
         figure = blank(above + len(paths) * tall + (len(paths) - 1) * between + foot)
-        drawn = [_drawable(series) for series in every]
-        times = axes.padded(np.concatenate([series.cases.seconds[series.cases.seconds > 0] for series in every]))
+        cases_of_all = [result.series.cases for result in every]
+        drawn = [axes.drawable(cases.seconds, cases.error_linf) for cases in cases_of_all]
+        times = axes.padded(np.concatenate([cases.seconds[cases.seconds > 0] for cases in cases_of_all]))
         errors = axes.padded(np.concatenate([y[np.isfinite(y)] for _, y in drawn]))
         # Room at the upper edge for the runs that blew up.
         errors = errors[0], errors[1] * (errors[1] / errors[0]) ** 0.1
@@ -51,8 +55,8 @@ def run_time_figure(panels):
                 if (path, scheme) not in panels:
                     continue
                 panel = add_axes(figure, left + k * (width + gap), bottom, width, tall, xscale="log", yscale="log")
-                for series in panels[path, scheme]:
-                    _draw(panel, series, ways.index(series.stepping))
+                for result in panels[path, scheme]:
+                    _draw(panel, result.series.cases, ways.index(result.series.stepping))
                 axes.set_log_limits(panel, times, errors, (width, tall))
                 panel.minorticks_off()      # they would take half of the drawing time
                 last = i == len(paths) - 1
@@ -66,15 +70,14 @@ def run_time_figure(panels):
                 if k == 0:
                     panel.set_ylabel("max-norm error at $T$")
         keys = [Line2D([], [], **_style(i)) for i in range(len(ways))]
-        figure.legend(keys, [names.literal(_said(way, every)) for way in ways], loc="lower left", ncol=2, columnspacing=2.0,
-                      bbox_to_anchor=(left / WIDTH, 0.1 / figure.get_figheight()), **LEGEND)
+        foot_legend(figure, left, keys, [names.literal(_said(way, every)) for way in ways], 2)
         return figure
 
 
 def _said(way, every):
     """A way to step, and whether every run of it blew up."""
-    verdicts = {series.verdict for series in every if series.stepping == way}
-    finite = any(np.isfinite(series.cases.error_linf).any() for series in every if series.stepping == way)
+    verdicts = {result.verdict for result in every if result.series.stepping == way}
+    finite = any(np.isfinite(result.series.cases.error_linf).any() for result in every if result.series.stepping == way)
     return f"{way}: blows up" if verdicts == {"unstable"} and not finite else way
 
 
@@ -84,18 +87,8 @@ def _style(i):
                 markerfacecolor=color if i % 2 == 0 else "none")
 
 
-def _drawable(series):
-    x, y = series.cases.seconds, series.cases.error_linf
-    good = np.isfinite(x) & np.isfinite(y) & (x > 0) & (y > 0)
-    return np.where(good, x, np.nan), np.where(good, y, np.nan)
-
-
-def _draw(panel, series, i):
-    x, y = _drawable(series)
-    cases = series.cases
-    if np.isfinite(y).any():
-        spread = np.nan_to_num(np.clip([x - cases.seconds_low, cases.seconds_high - x], 0, None))
-        panel.errorbar(x, y, xerr=spread, elinewidth=0.9, capsize=2, capthick=0.9, ecolor=_style(i)["color"], **_style(i))
+def _draw(panel, cases, i):
+    error_over_seconds(panel, cases, **_style(i))
     lost = ~np.isfinite(cases.error_linf) & (cases.seconds > 0)
     panel.plot(cases.seconds[lost], np.full(lost.sum(), 0.975), linestyle="none", marker="x", markersize=6,
                color=_style(i)["color"], transform=panel.get_xaxis_transform())
@@ -103,13 +96,13 @@ def _draw(panel, series, i):
 
 def table(study):
     """A row per series: what its finest run came to."""
-    labels = names.scheme_names(series.scheme for series in study.series)
-    return markup.table(COLUMNS, "".join(_row(series, labels[series.scheme]) for series in study.series),
+    labels = names.scheme_names(result.series.scheme for result in study.findings)
+    return markup.table(COLUMNS, "".join(_row(result, labels[result.series.scheme]) for result in study.findings),
                         f"{study.title}: what each way to step came to")
 
 
-def _row(series, label):
-    cases = series.cases
+def _row(result, label):
+    series, cases = result.series, result.series.cases
     if not len(cases):
         return ""
     beyond = np.flatnonzero(cases.bound_first_step > 0)
@@ -126,15 +119,32 @@ def _row(series, label):
         given_up = (f"step {cases.last_step[i]:.0f} of <var>N</var> = {cases.N[i]}, <var>t</var> = "
                     f"{cases.last_time[i]:.3g}, <var>x</var> = {cases.last_place[i]:.4g}")
     number = '<td class="number">{}</td>'.format
-    return (f'<tr{markup.departs(series)}><th scope="row">{escape(label)}</th><td>{escape(series.path)}</td>'
-            f'<td class="said">{escape(series.stepping)}</td><td>{_came_to_be(series)}</td>'
-            f"<td>{markup.expected(series)}</td>{number(cases.N[-1])}{number(markup.error(cases.error_linf[-1]))}"
+    return (f'<tr{markup.departs(result)}><th scope="row">{escape(label)}</th><td>{escape(series.path)}</td>'
+            f'<td class="said">{escape(series.stepping)}</td><td>{_came_to_be(result)}</td>'
+            f"<td>{markup.expected(result)}</td>{number(cases.N[-1])}{number(markup.error(cases.error_linf[-1]))}"
             f"{number(markup.seconds(cases.seconds[-1]))}{number(markup.count(cases.steps[-1]))}{number(bound)}"
             f'<td class="said">{where}</td><td class="said">{given_up}</td></tr>\n')
 
 
-def _came_to_be(series):
+def _came_to_be(result):
     """The verdict; where nothing but stability was asked for, that it is stable."""
-    if series.expected == "stable" and series.as_expected:
+    if result.expected == "stable" and result.as_expected:
         return '<span class="badge good">stable</span>'
-    return markup.badge(series, series.expected == "unstable")
+    return markup.badge(result, result.expected == "unstable")
+
+
+def _summary_row(study):
+    blown_up = sum(result.verdict == "unstable" for result in study.findings)
+    return (f'{row_head(study)}<td class="number">{len(study.findings)}</td><td class="number">{blown_up}</td>'
+            f"<td>{departing_text(study)}</td></tr>\n")
+
+
+def _section(study, drawings, entries):
+    figures = "".join(map(markup.figure, drawings))
+    every = "".join(article(result, label) for result, label in labeled(study))
+    return f"{figures}{table(study)}<details><summary>Every series</summary>\n{every}</details>\n"
+
+
+KIND = Kind(drawings, _section, Summary("series", "<p>Run with several integrators and steps:</p>\n",
+                                        ("study", "", "series", "blow up", "as expected"),
+                                        "Studies run with several integrators and steps", _summary_row))

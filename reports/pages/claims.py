@@ -2,6 +2,7 @@
 
 from html import escape
 
+from kinds import registry
 from reading import ledger
 from writing import markup, tables
 
@@ -17,18 +18,18 @@ COLUMNS = ("statement", "what it says", "measured on", "worst observed", "verdic
 
 def html(studies, drawings):
     """The page as text. `drawings`: {name of a study: its drawings}."""
-    of_paper, further = ledger.ledger(studies)
+    of_paper, further = statements(studies)
     every = [entry for statement in (*of_paper, *further) for entry in statement.entries]
-    checked = [study for study in studies if study.kind in ledger.OF_MEASUREMENT and study.findings]
+    checked = [study for study in studies if registry.of(study).held_to and study.findings]
     controls = [finding for study in checked for finding in study.findings]
     body = [markup.outcome({"results": sum(not result.as_expected for result in (*every, *controls))},
                            {"results": len(every) + len(controls)})]
-    for heading, statements in (("Statements of the paper", of_paper), ("Further findings", further)):
-        if statements:
-            rows = "".join(_row(statement, drawings) for statement in statements)
+    for heading, group in (("Statements of the paper", of_paper), ("Further findings", further)):
+        if group:
+            rows = "".join(_row(statement, drawings) for statement in group)
             body.append(f"<section>\n<h2>{heading}</h2>\n{markup.table(COLUMNS, rows, heading)}</section>\n")
     if checked:
-        body.append(f"<section>\n<h2>What the measurement itself is held to</h2>\n{''.join(map(_checked, checked))}"
+        body.append(f"<section>\n<h2>What the measurement itself is held to</h2>\n{''.join(map(_held_to, checked))}"
                     "</section>\n")
     if every:
         body.append('<section>\n<h2>Every finding</h2>\n')
@@ -39,11 +40,21 @@ def html(studies, drawings):
     return markup.document(TITLE, ABOUT, links, "".join(body))
 
 
+def statements(studies):
+    """(statements of the paper, further statements); what examines the measurement itself is no evidence for either."""
+    return ledger.statements(entry for study in studies if not registry.of(study).held_to
+                             for entry in registry.entries(study))
+
+
+def _held_to(study):
+    return f'<p><a href="index.html#{study.name}">{escape(study.title)}</a>: {registry.of(study).held_to(study)}</p>\n'
+
+
 def _row(statement, drawings):
     worst = statement.worst
     subjects = len({entry.subject for entry in statement.tested})
     checks = len({entry.check for entry in statement.tested})
-    counts = [_number(len(statement.tested), "finding"), _number(subjects, "subject"), _number(checks, "condition")]
+    counts = [markup.several(len(statement.tested), "finding"), markup.several(subjects, "subject"), markup.several(checks, "condition")]
     measured = ", ".join(counts) if statement.tested else ""
     if statement.controls:
         caught = sum(entry.as_expected for entry in statement.controls)
@@ -51,7 +62,7 @@ def _row(statement, drawings):
                      "settle as they must</span>")
     verdict = markup.badge(worst, worst.control)
     if statement.unsharp:
-        measured += (f'<br><span class="note">{_number(len(statement.unsharp), "finding")} more: a bound is not '
+        measured += (f'<br><span class="note">{markup.several(len(statement.unsharp), "finding")} more: a bound is not '
                      "attained</span>")
     if statement.refuted and not statement.departing:
         verdict = '<span class="badge bad">not so as printed</span>'
@@ -85,37 +96,9 @@ def _every(statement):
     notes = "".join(f"<p>{escape(remark)}</p>\n" for remark in remarks)
     opened = " open" if statement.departing else ""
     return (f'<details id="{_anchor(statement)}"{opened}><summary>{escape(statement.name)} '
-            f'<span class="note">{_number(len(statement.entries), "finding")}</span></summary>\n'
+            f'<span class="note">{markup.several(len(statement.entries), "finding")}</span></summary>\n'
             f"{notes}{tables.entry_table(statement.entries, statement.name)}</details>\n")
-
-
-def _checked(study):
-    right = sum(finding.as_expected for finding in study.findings)
-    if study.kind == "corpus":
-        text = f"{right} of {_number(len(study.findings), 'synthetic series')} of known order get the right verdict."
-    else:
-        wrong = {finding.subject for finding in study.findings if finding.control}
-        accused = {finding.subject for finding in study.findings if finding.alarm}
-        text = (f"{len(accused & wrong)} of {_number(len(wrong), 'wrong scheme')} and {len(accused - wrong)} true ones "
-                f"raise an alarm; {right} of {len(study.findings)} cells are as expected.")
-    return f'<p><a href="index.html#{study.name}">{escape(study.title)}</a>: {text}</p>\n'
-
-
-def corpus_table(study):
-    """A row per synthetic series: what is right, and what it got."""
-    rows = "".join(
-        f'<tr{markup.departs(finding)}><th scope="row">{escape(finding.subject)}</th>'
-        f'<td class="said">{escape(finding.claim)}</td><td class="number">{finding.theory_order:g}</td>'
-        f"<td>{escape(' or '.join((finding.expected, *finding.also_expected)))}</td>"
-        f"<td>{markup.badge(finding)}</td><td>{'yes' if finding.as_expected else '<strong>no</strong>'}</td></tr>\n"
-        for finding in study.findings)
-    columns = ("series", "why", "theory's order", "right verdict", "given verdict", "right")
-    return markup.table(columns, rows, study.title)
 
 
 def _anchor(statement):
     return "claim-" + "".join(c if c.isalnum() else "-" for c in statement.name).strip("-")
-
-
-def _number(n, noun):
-    return f"{n} {noun}" + ("" if n == 1 or noun.endswith("s") else "s")

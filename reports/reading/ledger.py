@@ -10,24 +10,20 @@ import re
 import numpy as np
 
 from reading import names
-from reading.results import CONVERGENCE
 
 # The statements of the paper in its order.
 PAPER = ("(2.3)", "Remark 2.1", "Remark 2.2", "Lemma 2.3", "Lemma 2.4", "Lemma 2.5", "Theorem 2.6", "Theorem 2.7",
          "Theorem 2.8", "Lemma 3.1", "(3.4)", "(3.5)", "Lemma 3.2", "Lemma 3.3", "Lemma 3.4", "Theorem 3.5",
          "Theorem 3.6", "Theorem 3.7")
-# Kinds of study that examine the checks and the verdicts themselves.
-OF_MEASUREMENT = ("controls", "corpus")
-STIFF = "Stiff scenes"
-OF_OPERATORS = ("consistency", "identities", "stability")
 # From best to worst, where each is as expected.
 _SEVERITY = ("holds", "confirmed", "pre-asymptotic", "floor", "inconclusive")
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A finding, or a series of a convergence study, as one line of the ledger."""
+    """A finding as one line of the ledger."""
     study: object
+    finding: object
     statement: str
     claim: str
     subject: str
@@ -83,62 +79,47 @@ class Statement:
         return max(self.tested or self.entries, key=_badness, default=None)
 
 
-def ledger(studies):
+def statements(entries):
     """(statements of the paper in its order, further statements in order of appearance).
 
-    Findings on wrong schemes and on synthetic series speak of the measurement, not of theory.
+    Values that theory does not bound are for the record.
     """
     found = {}
-    for study in studies:
-        if study.kind not in OF_MEASUREMENT:
-            for entry, source in zip(entries(study), study.judged):
-                # Values that theory does not bound are for the record.
-                if study.kind == CONVERGENCE or source.promised != "inconclusive":
-                    found.setdefault(entry.statement, []).append(entry)
-    statements = [Statement(name, tuple(group)) for name, group in found.items()]
-    of_paper = [statement for statement in statements if _base(statement.name) in PAPER]
+    for entry in entries:
+        if entry.finding.promised != "inconclusive":
+            found.setdefault(entry.statement, []).append(entry)
+    all_of_them = [Statement(name, tuple(group)) for name, group in found.items()]
+    of_paper = [statement for statement in all_of_them if _base(statement.name) in PAPER]
     of_paper.sort(key=lambda statement: (PAPER.index(_base(statement.name)), statement.name))
-    return of_paper, [statement for statement in statements if statement not in of_paper]
+    return of_paper, [statement for statement in all_of_them if statement not in of_paper]
 
 
-def entries(study):
-    """What a study says, a line for each thing that the gate judges."""
-    if study.kind == CONVERGENCE:
-        return [_of_series(study, series) for series in study.series]
-    return [of_finding(study, finding) for finding in study.findings]
+def entries(study, disputes=False):
+    """What a study says, a line for each finding.
+
+    disputes: it expects something else than a statement of the paper promises only where it disputes the statement:
+    its truth, or, where errors should grow with a bound, that the bound is attained.
+    """
+    return [_entry(study, finding, disputes and finding.expected != finding.promised) for finding in study.findings]
 
 
-def of_finding(study, finding):
+def _entry(study, finding, disputed):
     i, margin = closest(finding.points)
-    # A study of the paper's statements that expects something else than a statement promises disputes it: its truth, or,
-    # where errors should grow with the bound, that the bound is attained.
-    disputed = study.kind in OF_OPERATORS and finding.expected != finding.promised
     unsharp = finding.promised == "diverges"
-    return Entry(study, finding.statement, finding.claim, finding.subject, finding.check, measured(finding),
-                 finding.observed_order, margin if i is not None and finding.test == "bounds" else math.nan,
+    return Entry(study, finding, finding.statement, finding.claim, finding.subject, finding.check, measured(finding),
+                 math.nan if finding.test == "stable" else finding.observed_order,
+                 margin if i is not None and finding.test == "bounds" else math.nan,
                  finding.verdict, " or ".join((finding.expected, *finding.also_expected)), finding.as_expected,
                  finding.control and not disputed, disputed and not unsharp, disputed and unsharp, finding.reason,
                  finding.remark)
-
-
-def _of_series(study, series):
-    statement, _, limit = series.theory_statement.partition(": ")
-    claim = (f"order {series.theory_order:g} in {series.theory_variable}" if series.theory_order else
-             f"the error does not vanish: {limit}")
-    source = f"{series.source} source, {study.scene.name or 'scene of ' + study.name}"
-    check = ", ".join(filter(None, (series.path, series.stepping, source)))
-    order, control = series.observed_order, series.expected not in ("confirmed", "pre-asymptotic")
-    if series.expected in ("stable", "unstable"):
-        # No order is asked for: nothing of the theorems is tested.
-        statement, claim, order, control = STIFF, "the solution stays bounded", math.nan, series.expected == "unstable"
-    return Entry(study, statement, claim, names.full_name(series.scheme), check, order_text(series), order, math.nan,
-                 series.verdict, series.expected, series.as_expected, control, False, False, series.reason, "")
 
 
 def measured(finding):
     """What was observed, in a few words."""
     if math.isfinite(finding.observed_order):
         return order_text(finding)
+    if finding.series:
+        return "no order"
     i, _ = closest(finding.points)
     if i is None or finding.test != "bounds":
         return "–"
@@ -168,8 +149,6 @@ def _beside(round_number, value):
 
 
 def order_text(result):
-    if not math.isfinite(result.observed_order):
-        return "no order"
     return (f"order {names.order(result.observed_order)} "
             f"[{names.order(result.observed_low)}, {names.order(result.observed_high)}]")
 

@@ -105,6 +105,10 @@ def seconds(number):
     return f"{number:.3g}" if math.isfinite(number) else "–"
 
 
+def several(n, noun):
+    return f"{n} {noun}" + ("" if n == 1 or noun.endswith("s") else "s")
+
+
 def count(number):
     """Groups of three digits apart by a narrow space, as tables of large numbers are set."""
     return f"{number:,}".replace(",", "\u202f")

@@ -26,7 +26,7 @@ class Reading(ReportTest):
         for fixed_length in (False, True):
             study = read(self.folder, kind="pollution", findings=[one], fixed_length=fixed_length, scene=False)
             found = study.findings[0]
-            self.assertEqual((study.kind, study.scene, study.judged), ("pollution", None, study.findings))
+            self.assertEqual((study.kind, study.scene, study.evidence), ("pollution", None, ()))
             self.assertEqual(found.points.label, ("space", "time"))
             self.assertEqual(found.also_expected, ("floor", "below"))
             np.testing.assert_array_equal(found.points.lower, [-2.0, -2.0])
@@ -38,7 +38,8 @@ class Reading(ReportTest):
             self.assertNotIn("kind", file.attrs)
             self.assertNotIn("findings", file)
         study = results.read_study(path)
-        self.assertEqual((study.kind, study.findings, study.judged), ("convergence", (), study.series))
+        self.assertEqual((study.kind, len(study.findings), study.evidence), ("convergence", 1, ()))
+        self.assertEqual(study.findings[0].series.path, "delta = 4h")
 
     def test_a_damaged_finding_is_refused(self):
         lacking, ragged, mislabeled = finding(), finding(value=[1.0, 2.0]), finding(labels="one\n")
@@ -56,7 +57,7 @@ class Ledger(ReportTest):
         record = finding(statement="Lemma 2.4, growth curve", test="bounds", promised="inconclusive",
                          expected="inconclusive", verdict="inconclusive")
         study = read(self.folder, kind="stability-map", findings=[record, finding(statement="Lemma 2.4, map")])
-        of_paper, further = ledger.ledger([study])
+        of_paper, further = claims.statements([study])
         self.assertEqual([statement.name for statement in (*of_paper, *further)], ["Lemma 2.4, map"])
         self.assertEqual(len(ledger.entries(study)), 2)
 
@@ -64,7 +65,7 @@ class Ledger(ReportTest):
         told = ("error budget", "Theorem 2.7 (2)", "Lemma 3.2, D", "Lemma 3.2, A", "(2.3)", "Theorem 2.7 (1), (2)",
                 "Remark 2.1", "(3.4)", "Lemma 3.1", "Lemma 2.3")
         study = read(self.folder, kind="consistency", findings=[finding(statement=one) for one in told])
-        of_paper, further = ledger.ledger([study])
+        of_paper, further = claims.statements([study])
         self.assertEqual([one.name for one in of_paper],
                          ["(2.3)", "Remark 2.1", "Lemma 2.3", "Theorem 2.7 (1), (2)", "Theorem 2.7 (2)", "Lemma 3.1",
                           "(3.4)", "Lemma 3.2, A", "Lemma 3.2, D"])
@@ -75,13 +76,13 @@ class Ledger(ReportTest):
                          theory_statement="Theorem 2.7 (2): the limit is another")
         studies = [read(self.folder, "fig2", series(), settles),
                    read(self.folder, "map", kind="map", findings=[finding(statement="Theorem 2.7 (2)")])]
-        (statement,), _ = ledger.ledger(studies)
+        (statement,), _ = claims.statements(studies)
         self.assertEqual((len(statement.entries), len(statement.tested), len(statement.controls)), (3, 2, 1))
         self.assertEqual(statement.worst.verdict, "confirmed")
 
     def test_the_worst_is_what_departs_else_the_least_certain_else_the_nearest_to_its_bound(self):
         def worst(*found):
-            (statement,), _ = ledger.ledger([read(self.folder, kind="stability", findings=found)])
+            (statement,), _ = claims.statements([read(self.folder, kind="stability", findings=found)])
             return statement.worst.subject
 
         near = finding(subject="near", test="bounds", value=[0.1, 0.9, 0.2, 0.3], upper=1.0)
@@ -102,7 +103,7 @@ class Ledger(ReportTest):
 
     def test_wrong_schemes_and_synthetic_series_are_no_evidence(self):
         studies = [read(self.folder, kind, kind=kind, findings=[finding()]) for kind in ("controls", "corpus")]
-        self.assertEqual(ledger.ledger(studies), ([], []))
+        self.assertEqual(claims.statements(studies), ([], []))
 
 
     def test_a_value_beside_a_round_bound_shows_by_how_much_it_differs(self):

@@ -9,7 +9,7 @@ import numpy as np
 
 from tests.result_files import ReportTest, finding, series, write
 
-from kinds import controls, convergence, coverage, error_map, operators, registry
+from kinds import controls, coverage, error_map, identities, registry, stability
 from drawing import look
 from reading import results
 
@@ -61,7 +61,7 @@ class Operators(FigureTest):
         self.assertEqual(self.texts("stability", finding(test="bounds")), {})
         self.assertEqual(len(self.texts("stability", finding(test="bounds", upper=1.01, **NOWHERE))), 1)
         self.assertEqual(len(self.texts("identities", finding(test="bounds", upper=1.0, **NOWHERE))), 1)
-        for kind in (*registry._DRAWINGS, "corpus", "a kind of tomorrow"):
+        for kind in (*registry.KINDS, "corpus", "a kind of tomorrow"):
             self.assertEqual(self.texts(kind, name="none"), {})
 
     def test_digits_have_one_bound_and_pale_controls(self):
@@ -86,7 +86,7 @@ class Operators(FigureTest):
 
     def test_deviations_are_relative_to_what_is_allowed(self):
         def relative(**more):
-            return operators._relative(self.study("identities", finding(test="bounds", **more)).findings[0])
+            return identities._relative(self.study("identities", finding(test="bounds", **more)).findings[0])
 
         self.assertEqual(relative(N=(1, 2), value=[0.5, -3.0], lower=-4.0, upper=2.0), (2 / 3, 2.0))
         self.assertEqual(relative(N=(1, 2), value=[0.5, 0.2], upper=2.0), (0.25, 0.5))
@@ -96,7 +96,7 @@ class Operators(FigureTest):
     def test_growth_is_relative_to_its_bound_and_the_worst_of_all_particle_numbers(self):
         one = self.study("stability", finding(test="bounds", value=[1.01, 1.04, 1.0, 1.03], upper=1.02,
                                               variable=np.array([1.0, 1.0, 0.1, 10.0]))).findings[0]
-        x, growth = operators._growth(one)
+        x, growth = stability._growth(one)
         np.testing.assert_array_equal(x, [0.1, 1.0, 10.0])
         np.testing.assert_allclose(growth, [0.0, 2.0, 1.5])
 
@@ -139,7 +139,7 @@ class Maps(FigureTest):
 
     def test_a_map_has_every_case_in_its_place(self):
         study = self.study("map", all_series=self.all_series())
-        planes = error_map.error_planes(study.series)
+        planes = error_map.error_planes(study.evidence)
         self.assertEqual([source for _, source in planes], ["local", "nonlocal"])
         for (_, source), (h, delta, error) in planes.items():
             self.assertTrue(np.all(np.diff(h) > 0) and np.all(np.diff(delta) > 0))
@@ -155,8 +155,8 @@ class Maps(FigureTest):
         self.assertIn("0.98 [0.90, 1.06]", texts["map"])
         self.assertIn("1.02 [1.00, 1.04]", texts["map"])
         study = self.study("map", fit, all_series=self.all_series())
-        self.assertIsNone(convergence.cost_figure([study], convergence.scheme_styles([study])))
-        caption = error_map.drawings(study)[0].caption
+        self.assertEqual(registry.with_run_times([study]), [])
+        caption = error_map.drawings(study, {})[0].caption
         self.assertIn("error = (a^m + b^m)^(1/m)", caption)
         self.assertIn("plain sum a + b is larger by 300.", caption)
 

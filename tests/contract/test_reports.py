@@ -20,13 +20,13 @@ import numpy as np
 from tests.result_files import ROOT, ReportTest, series, write
 
 from drawing import axes, look, svg
-from kinds import convergence
+from kinds import convergence, registry, run_times
 from pages import mutants, page
 from reading import names, results
 
 
 def images(study):
-    return look.render(convergence.error_figure(study, convergence.scheme_styles([study])), study.title)
+    return look.render(convergence.error_figure(study, registry.styles([study])), study.title)
 
 
 class Reading(ReportTest):
@@ -36,10 +36,10 @@ class Reading(ReportTest):
                          fixed_length=fixed_length)
             study = results.read_study(path)
             self.assertEqual(study.name, "fig1")
-            self.assertEqual(study.series[0].verdict, "confirmed")
-            self.assertIsNone(study.series[0].scheme.mu)
+            self.assertEqual(study.findings[0].verdict, "confirmed")
+            self.assertIsNone(study.findings[0].series.scheme.mu)
             self.assertEqual(study.scene.flow, "")
-            self.assertEqual(list(study.series[0].cases.N), [160, 320, 640, 1280])
+            self.assertEqual(list(study.findings[0].series.cases.N), [160, 320, 640, 1280])
 
     def test_a_file_that_is_no_result_stops_with_4_and_one_line(self):
         incomplete, ragged = series(), series(h=np.ones(3))
@@ -242,7 +242,7 @@ class Figures(ReportTest):
         text = images(study)["svg"].decode()
         for note in ("2 of 4 levels not finite", "4 of 4 levels not finite", "1 of 4 levels zero"):
             self.assertIn(note, text)
-        self.assertIsNotNone(convergence.cost_figure([study], convergence.scheme_styles([study])))
+        self.assertIsNotNone(run_times.cost_figure([study], registry.styles([study])))
         alone = results.read_study(write(self.folder, "fig2", lost))
         self.assertIn("4 of 4 levels not finite", images(alone)["svg"].decode())
         self.assertIn("nan", page.html([study], {}))
@@ -253,27 +253,27 @@ class Figures(ReportTest):
             del file["scene"].attrs["u"]
             file["scene"].attrs["u0"] = "exp(sin(x))"
         study = results.read_study(path)
-        drawing = convergence.drawings(study, convergence.scheme_styles([study]))[0]
+        drawing = convergence.drawings(study, registry.styles([study]))[0]
         self.assertIn("differences to a finer run", drawing.caption)
         self.assertIn("max-norm difference to a finer run", images(study)["svg"].decode())
         self.assertIn("initial values u0", page.html([study], {}))
         # Nor do they stand beside errors over run time.
-        self.assertIsNone(convergence.cost_figure([study], convergence.scheme_styles([study])))
+        self.assertIsNone(run_times.cost_figure([study], registry.styles([study])))
 
     def test_a_study_without_series_has_no_figure(self):
         study = results.read_study(write(self.folder, "fig1"))
         self.assertIsNone(convergence.error_figure(study, {}))
-        self.assertIsNone(convergence.cost_figure([study], {}))
+        self.assertIsNone(run_times.cost_figure([study], {}))
         self.assertIn("No series has been run", page.html([study], {}))
 
     def test_series_run_by_several_studies_are_drawn_once(self):
         studies = [results.read_study(path) for path in (
             write(self.folder, "fig2", series(), series(divergence="nonlocal", N=(160, 320))),
             write(self.folder, "fig5", series(), series(divergence="nonlocal"), series(step_text="h/8")))]
-        chosen = convergence.cost_curves(studies)
+        chosen = run_times.cost_curves(studies)
         self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
                          [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
-        text = look.render(convergence.cost_figure(studies, convergence.scheme_styles(studies)), "cost")["svg"].decode()
+        text = look.render(run_times.cost_figure(studies, registry.styles(studies)), "cost")["svg"].decode()
         for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
                      "Model I, nonlocal divergence"):
             self.assertEqual(text.count(f">{name}<"), 1, name)
@@ -283,7 +283,7 @@ class Figures(ReportTest):
                    for model, kernel in ((1, "inverse"), (2, "cubic-spline"), (1, "cubic-spline"), (1, "power"))
                    for divergence in ("local", "nonlocal")]
         study = results.read_study(write(self.folder, "fig1", *schemes))
-        styles = convergence.scheme_styles([study])
+        styles = registry.styles([study])
         self.assertEqual(len({(style.color, style.marker, style.filled) for style in styles.values()}), 8)
         self.assertTrue(all(style.filled == (scheme.divergence == "local") for scheme, style in styles.items()))
         self.assertIn("Model I, power kernel, local divergence",

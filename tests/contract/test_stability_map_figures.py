@@ -12,8 +12,7 @@ from tests.result_files import ReportTest, finding, write
 from drawing import look
 from reading import results
 from kinds import registry
-from kinds.stability_map import (curves as stability_map_curves, findings as stability_map_findings,
-                                 maps as stability_map_maps, table as stability_map_table)
+from kinds.stability_map import findings as stability_map_findings, maps, positivity as smallest_entries, table as sharp_limits
 
 RATIOS, CFL = (0.5, 2.0, 8.0), (0.5, 1.0, 2.0, 4.0)
 GROWTH = stability_map_findings.GROWTH
@@ -93,13 +92,13 @@ class Maps(StabilityMapTest):
         np.testing.assert_allclose(cfl, CFL)
         self.assertEqual(values.shape, (4, 3))
         np.testing.assert_allclose(values[:, 0], [1.0, 1.0, 50.0, 1e300])
-        bands = stability_map_maps.band([1.0, 1 + 1e-9, 1.01, 3.5, 1e6 * 1.01, 1e300, math.inf, math.nan], 1.0)
+        bands = maps.band([1.0, 1 + 1e-9, 1.01, 3.5, 1e6 * 1.01, 1e300, math.inf, math.nan], 1.0)
         np.testing.assert_array_equal(bands, [0, 0, 1, 2, 8, 8, 8, math.nan])
-        np.testing.assert_array_equal(stability_map_maps.band([11.0, 13.0], 12.0), [0, 1])
+        np.testing.assert_array_equal(maps.band([11.0, 13.0], 12.0), [0, 1])
 
     def test_cells_meet_half_way_and_a_single_one_has_a_width(self):
-        np.testing.assert_allclose(stability_map_maps.edges(np.array([1.0, 4.0])), [0.5, 2.0, 8.0])
-        low, high = stability_map_maps.edges(np.array([3.0]))
+        np.testing.assert_allclose(maps.edges(np.array([1.0, 4.0])), [0.5, 2.0, 8.0])
+        low, high = maps.edges(np.array([3.0]))
         self.assertTrue(low < 3.0 < high)
 
     def test_cells_beside_one_another_of_one_band_are_one_and_holes_are_none(self):
@@ -234,7 +233,7 @@ class Curves(StabilityMapTest):
     def test_positivity_is_the_worst_over_the_horizons_and_says_where_it_is_promised(self):
         lower = np.array([-1e-11, -1e-11, -math.inf, -math.inf] + 2 * [-1e-11, -1e-11, -1e-11, -math.inf])
         one = positivity([[0.1, 0.0, -1.0, -3.0], [0.0, 0.2, 0.0, -2.0], [0.3] * 4], lower=lower)
-        cfl, worst, promised = stability_map_curves.worst_entries(self.study(one).findings[0])
+        cfl, worst, promised = smallest_entries.worst_entries(self.study(one).findings[0])
         np.testing.assert_array_equal(cfl, CFL)
         np.testing.assert_array_equal(worst, [0.0, 0.0, -1.0, -3.0])
         np.testing.assert_allclose(promised, [1.0, 1.0, 2 / 3, 0.0])
@@ -254,7 +253,7 @@ class Curves(StabilityMapTest):
 class Table(StabilityMapTest):
     def rows(self, *found):
         """The cells of every row, without markup."""
-        table = stability_map_table.html(self.study(*found))
+        table = sharp_limits.html(self.study(*found))
         return [[re.sub("<[^>]*>", "", cell).strip() for cell in re.findall(r"<t[hd].*?</t[hd]>", row)]
                 for row in table.split("<tr")[2:]]
 
@@ -292,9 +291,9 @@ class Table(StabilityMapTest):
         self.assertEqual(cells((1.0, 1.0, 1.1), (1.0,) * 3, upper=1.000001, as_expected=0)[1], "1")
 
     def test_what_departs_in_either_limit_is_marked(self):
-        self.assertNotIn('class="departs"', stability_map_table.html(self.study(limit(), limit("spectral radius"))))
+        self.assertNotIn('class="departs"', sharp_limits.html(self.study(limit(), limit("spectral radius"))))
         wrong = limit("spectral radius", as_expected=0, verdict="violated")
-        loud = stability_map_table.html(self.study(limit(), wrong))
+        loud = sharp_limits.html(self.study(limit(), wrong))
         self.assertIn('class="departs"', loud)
         self.assertIn("expected holds", loud)
 
@@ -321,7 +320,7 @@ class Missing(StabilityMapTest):
         for part, found in parts.items():
             self.assertEqual(list(self.drawings(found)), [part])
         self.assertEqual(self.drawings(), {})
-        self.assertEqual(stability_map_table.html(self.study()), "")
+        self.assertEqual(sharp_limits.html(self.study()), "")
         self.assertEqual(self.drawings(limit("spectral radius")), {})
 
     def test_one_ratio_and_one_cfl_number(self):
@@ -334,7 +333,7 @@ class Missing(StabilityMapTest):
         found = (growth_map(wild), limit(value=(math.nan, math.inf, 0.0), lower=(-math.inf,) * 3),
                  limit("spectral radius", (math.nan,) * 3), curve(2, (math.nan, math.inf, 0.0)), positivity(wild))
         self.assertEqual(list(self.drawings(*found)), ["", "limits", "growth", "positivity"])
-        stability_map_table.html(self.study(*found))
+        sharp_limits.html(self.study(*found))
         lost = (growth_map([[math.nan] * 4] * 3), limit(value=(math.nan,) * 3), curve(2, (math.nan,) * 3),
                 positivity([[math.nan] * 4] * 3))
         self.assertEqual(list(self.drawings(*lost)), ["", "limits", "growth"])

@@ -7,7 +7,7 @@ import numpy as np
 
 from tests.result_files import ReportTest, series, write
 
-from kinds import convergence, stepping
+from kinds import registry, stepping
 from reading import results
 
 
@@ -32,7 +32,7 @@ class SteppingFigures(ReportTest):
     def test_a_panel_per_path_and_scheme_and_a_curve_per_way(self):
         study = self.study(*ways(), *ways(path="delta = h^2"), *ways(model=2, kernel="cubic-spline", mu=1.5))
         self.assertTrue(study.steps_in_several_ways)
-        drawing, = stepping.drawings(study)
+        drawing, = stepping.drawings(study, {})
         panels = drawing.figure.axes
         self.assertEqual(len(panels), 3)
         for panel in panels:
@@ -44,7 +44,7 @@ class SteppingFigures(ReportTest):
     def test_a_way_of_which_every_run_blows_up_is_named(self):
         lost = ways()
         lost[1]["error_linf"] = np.full(4, math.nan)
-        drawing, = stepping.drawings(self.study(*lost))
+        drawing, = stepping.drawings(self.study(*lost), {})
         texts = [text.get_text() for legend in drawing.figure.legends for text in legend.get_texts()]
         self.assertEqual(texts, ["forward-euler, step 0.9 cfl", "forward-euler, step h/4: blows up", "sdirk2, step h/2"])
 
@@ -60,7 +60,8 @@ class SteppingFigures(ReportTest):
         self.assertNotIn("step 124", rows[0] + rows[2])
 
     def test_they_stay_out_of_the_figure_of_all_run_times(self):
-        self.assertIsNone(convergence.cost_figure([self.study(*ways())], {}))
+        several, plain = self.study(*ways()), self.study(series())
+        self.assertEqual(registry.with_run_times([several, plain]), [plain])
 
     def test_the_page_has_table_figure_and_every_series(self):
         write(self.folder, "stiff", *ways())
@@ -84,7 +85,7 @@ class SteppingFigures(ReportTest):
     def test_files_without_these_columns_are_read(self):
         study = self.study(series())
         self.assertFalse(study.steps_in_several_ways)
-        self.assertTrue(np.isnan(study.series[0].cases.bound_largest).all())
+        self.assertTrue(np.isnan(study.findings[0].series.cases.bound_largest).all())
 
 
 if __name__ == "__main__":

@@ -71,8 +71,8 @@ TEST_CASE("extremes: mass drift", "[extremes]") { check_rows(add_rows_of_mass, "
 TEST_CASE("the table of extremes has every row, each once", "[extremes]") {
   std::set<std::string> names, statements;
   for (const Measurement& measurement : extreme_rows(coarse)) {
-    CHECK(names.insert(measurement.name).second);
-    statements.insert(measurement.name.substr(0, measurement.name.find(':')));
+    CHECK(names.insert(measurement.check.label()).second);
+    statements.insert(measurement.check.statement);
   }
   CHECK(statements == std::set<std::string>{"2000 steps", "CFL 1, 1.01, 2", "N = 3 to 2000", "T = 0",
                                             "a particle at a zero of c_hat", "alpha -> 2", "amplitude 1e300 and 1e-300",

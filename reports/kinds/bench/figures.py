@@ -7,10 +7,12 @@ from matplotlib.patches import Patch
 import numpy as np
 
 from drawing import axes
-from reading import bench_results, names, work_precision
+from drawing.frames import panel_frames
+from drawing.look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from drawing.styles import styles_of
+from drawing.timed import BARS
 from kinds.bench import tables as bench_tables
-from kinds import convergence
-from drawing.look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, typography
+from reading import bench_results, names, work_precision
 
 EFFICIENT = dict(linestyle="none", marker="o", markersize=13, markeredgewidth=0, color="#D3D3D3", zorder=1)
 # Positions, velocities, pair sums, source, rest: told apart by hatching too.
@@ -19,8 +21,8 @@ SLOPE = dict(color=GRAY, linewidth=0.8, zorder=2)
 
 
 def drawings(benches, styles):
-    """The figures of benches that have something to show. `styles`: {scheme: convergence.Style} of the other figures."""
-    styles = convergence.styles_of([*styles, *(curve.scheme for bench in benches for curve in bench.curves)])
+    """The figures of benches that have something to show. `styles`: {scheme: Style} of the other figures."""
+    styles = styles_of([*styles, *(curve.scheme for bench in benches for curve in bench.curves)])
     compared = [curve for curve in bench_tables.compared(benches) if len(curve)]
     found = []
     if compared:
@@ -62,7 +64,7 @@ def error_figure(curves, styles, cost):
             panels.setdefault(curve.path, []).append(curve)
         columns = 2
         foot = math.ceil((len(legend) + 1) / columns) * LINE * 1.5 + 0.15
-        figure, frames = convergence.panel_frames(len(panels), below=0, above=0.4, foot=foot)
+        figure, frames = panel_frames(len(panels), below=0, above=0.4, foot=foot)
         points = {curve: _points(curve, cost) for curve in curves}
         x, y = (np.concatenate([point[i][np.isfinite(point[i])] for point in points.values()]) for i in (0, 1))
         for frame, (path, group) in zip(frames, panels.items()):
@@ -73,7 +75,7 @@ def error_figure(curves, styles, cost):
             for curve, (costs, errors) in zip(group, drawn):
                 style = styles[curve.scheme]
                 bars = _bars(curve.seconds, costs) if cost == "seconds" else None
-                panel.errorbar(costs, errors, xerr=bars, ecolor=style.color, elinewidth=0.9, capsize=2, capthick=0.9,
+                panel.errorbar(costs, errors, xerr=bars, ecolor=style.color, **BARS,
                                **style.line())
             axes.set_log_limits(panel, axes.padded(x), axes.padded(y), frame.inches)
             panel.minorticks_off()      # they would take half of the drawing time
@@ -83,16 +85,14 @@ def error_figure(curves, styles, cost):
                 panel.set_xlabel("seconds" if cost == "seconds" else "pair interactions")
             panel.tick_params(labelleft=frame.first, labelbottom=frame.last)
         keys = [Line2D([], [], **style.line()) for style in legend.values()] + [Line2D([], [], **EFFICIENT)]
-        figure.legend(keys, [*map(names.literal, legend), "efficient frontier"], loc="lower left", ncol=columns,
-                      bbox_to_anchor=(frames[0].left, 0.1 / figure.get_figheight()), columnspacing=2.0, **LEGEND)
+        foot_legend(figure, frames[0].left, keys, [*map(names.literal, legend), "efficient frontier"], columns)
         return figure
 
 
 def _points(curve, cost):
     """(cost, error) with NaN where a level cannot be drawn on logarithmic axes."""
     x = curve.seconds.median if cost == "seconds" else curve.work["pairs"]
-    good = np.isfinite(x) & (x > 0) & np.isfinite(curve.error) & (curve.error > 0)
-    return np.where(good, x, np.nan), np.where(good, curve.error, np.nan)
+    return axes.drawable(x, curve.error)
 
 
 def _bars(spread, drawn, per=1.0):
@@ -180,9 +180,8 @@ def scaling_figure(benches, styles):
             panel.tick_params(top=True, right=True)
             if i == 0:
                 panel.set_ylabel("seconds per step")
-        figure.legend([Line2D([], [], **styles[scheme].line()) for scheme in schemes],
-                      [names.literal(labels[scheme]) for scheme in schemes], loc="lower left", ncol=2,
-                      columnspacing=2.0, bbox_to_anchor=(left / WIDTH, 0.1 / figure.get_figheight()), **LEGEND)
+        foot_legend(figure, left, [Line2D([], [], **styles[scheme].line()) for scheme in schemes],
+                    [names.literal(labels[scheme]) for scheme in schemes], 2)
         return figure
 
 

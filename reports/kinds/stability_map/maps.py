@@ -12,10 +12,9 @@ import matplotlib
 import numpy as np
 
 from drawing import axes
-from drawing.look import COLORS, DASHES, DEPARTING, LEGEND, WIDTH, Drawing, add_axes, blank, slug, typography
+from drawing.look import COLORS, DASHES, DEPARTING, WIDTH, Drawing, add_axes, blank, foot_legend, slug, typography
+from kinds.stability_map.panels import COLUMNS, wrapped
 from reading import names
-from kinds.stability_map import curves as stability_map_curves
-from kinds.stability_map.curves import COLUMNS, wrapped
 from kinds.stability_map.findings import (GROWTH, NORM, SEARCH_END, SPECTRAL, WITHIN, allowed_growth, integrator_of, lemma,
                                     of_kind, ordered, parts, plane, subject_of)
 
@@ -24,17 +23,13 @@ LEVELS = (1.0, 3.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6)
 LEMMA = COLORS[0]
 
 
-def drawings(study):
-    return [*_maps(study), *stability_map_curves.drawings(study)]
-
-
 def _shown_arrangement(found):
     """Real motion where there is any, for what grows along it is what counts."""
     arrangements = list(dict.fromkeys(parts(finding)[0] for finding in found))
     return "moved" if "moved" in arrangements else arrangements[0]
 
 
-def _maps(study):
+def drawings(study):
     found = [finding for finding in of_kind(study, "map") if finding.quantity == GROWTH and plane(finding)[2].size]
     if not found:
         return
@@ -221,5 +216,4 @@ def _line_key(figure, lemmas, left, marked):
             "sharp limit, spectral radius": Line2D([], [], **_LIMIT[False])}
     if marked:
         keys["no CFL number is stable"] = Line2D([], [], **_NONE)
-    figure.legend(keys.values(), keys.keys(), loc="lower left", ncol=3 if marked else 2, columnspacing=2.0,
-                  bbox_to_anchor=(left / WIDTH, 0.1 / figure.get_figheight()), **LEGEND)
+    foot_legend(figure, left, keys.values(), keys.keys(), 3 if marked else 2)

@@ -29,6 +29,7 @@ Check series_check(const Series& series, double mu, bool standing, std::size_t n
       .also_expected = {},
       .known = {},
       .series = number};
+  if (meets(check.expected, check.promised)) check.promised = check.expected;
   if (series.expected == Verdict::stable || series.expected == Verdict::unstable) {
     // No order is asked for: nothing of the theorems is tested.
     check.statement = "Stiff scenes";

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "build_info.hpp"
+#include "studies/cases/series_verdict.hpp"
 #include "studies/storing/case_h5.hpp"
 #include "studies/storing/files.hpp"
 #include "studies/storing/finding_h5.hpp"
@@ -23,8 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* format = "acstudy-1";
 
-/// @param finding  the verdict on the series; none where it is the evidence of other findings
-void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result, const Finding* finding) {
+void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result, const Finding& verdict) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
   h5::write_number<std::int64_t>(group, "model", series.scheme.model);
@@ -43,12 +43,8 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
   h5::write_text(group, "theory_variable", series.theory.variable);
   h5::write_text(group, "theory_statement", series.theory.statement);
   h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
-  if (finding != nullptr) {
-    write_verdict(group, *finding);
-    h5::write_column<double>(group, "pairwise", finding->judgement.pairwise);
-  } else {
-    h5::write_number(group, "theory_order", series.theory.order);
-  }
+  write_verdict(group, verdict);
+  h5::write_column<double>(group, "pairwise", verdict.judgement.pairwise);
 
   write_cases(group, result, result.completed_levels());
   if (result.reference() != nullptr) {
@@ -109,12 +105,14 @@ std::vector<char> study_h5(const StudyResult& result, const Provenance& provenan
     if (text.flow) h5::write_text(scene, "flow", *text.flow);
   }
   const h5::Handle series = h5::create_group(root, "series");
-  std::vector<const Finding*> verdicts(result.series.size());
+  std::vector<std::optional<Finding>> verdicts(result.series.size());
   for (const auto& finding : result.findings) {
-    if (finding && finding->series) verdicts[*finding->series] = &*finding;
+    if (finding && finding->series) verdicts[*finding->series] = finding;
   }
   for (std::size_t i = 0; i < result.series.size(); ++i) {
-    write_series(series, fmt::format("{:03}", i), result.series[i], verdicts[i]);
+    // What a series is evidence of shows its order, even where the gate asks for none.
+    if (!verdicts[i]) verdicts[i] = series_verdict(*result.series[i].series, i).take(result.series);
+    write_series(series, fmt::format("{:03}", i), result.series[i], *verdicts[i]);
   }
   const h5::Handle findings = h5::create_group(root, "findings");
   h5::write_text(root, "findings_key", findings_key(study));

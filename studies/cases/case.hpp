@@ -11,6 +11,7 @@
 #include "mms/scene.hpp"
 #include "mms/source.hpp"
 #include "solver/time/integrators.hpp"
+#include "studies/cases/stored.hpp"
 #include "studies/models/arrangement.hpp"
 #include "studies/models/scheme_choice.hpp"
 
@@ -45,6 +46,14 @@ struct Case {
   StepRule step = {};
   bool readable = false;              ///< run in the readable form of the scheme even where there is a vector form
   std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
+
+  /// Its inputs that are stored case by case; what a series has in common is stored with the series.
+  template <class Visit>
+  void stored(Visit&& visit) const {
+    visit(Stored{"N"}, N);
+    visit(Stored{"h"}, h);
+    visit(Stored{"delta"}, delta);
+  }
 
   /// Text that is equal for two cases exactly if all their inputs are equal.
   std::string key() const;

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "solver/time/integrate.hpp"
 #include "studies/claims/stability.hpp"
 #include "studies/models/control_choice.hpp"
 

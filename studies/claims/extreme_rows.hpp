@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/time/integrators.hpp"
+#include "solver/time/steps.hpp"
 #include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/claims/extremes.hpp"

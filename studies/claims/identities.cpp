@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -84,11 +85,11 @@ Point distance_to_difference(const Subject& subject, const std::vector<double>& 
   PlacedScheme placed(subject.scheme, scene, subject.mu, x, ratio * gap.smallest);
   const PlacedScheme::Rows rows = placed.rows();
   const std::ptrdiff_t n = std::ssize(x);
+  const Particles& particles = placed.particles();
   double largest = 0.0;
   for (std::ptrdiff_t j = 0; j < n; ++j) {
-    // Entries at j - 1, j, j + 1.
-    const auto near = subject.scheme.model->nearest.row(subject.scheme, scene, subject.mu, placed.particles().delta,
-                                                        placed.particles().x.at(j));
+    const std::array<double, 3> near =
+        subject.scheme.model->nearest.row(subject.scheme, scene, subject.mu, particles.delta, particles.x.at(j));
     for (std::size_t k = 0; k < rows.width; ++k) {
       const std::ptrdiff_t offset = (rows.first + static_cast<std::ptrdiff_t>(k) + 1 + n) % n;
       const double expected = offset < 3 ? near[static_cast<std::size_t>(offset)] : 0.0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "studies/claims/stability.hpp"
 
@@ -69,7 +70,7 @@ struct Frozen {
 
 /// The largest dt at which the integrator's stability function phi(C dt) has no pole yet.
 double up_to_the_pole(const Integrator& integrator, double C) {
-  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.implicit_stages.front().diagonal * C) : unbounded;
+  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.diagonal(1) * C) : unbounded;
 }
 
 /// phi(C dt), to which theory bounds the norm of a step within the condition; infinite beyond the pole.
@@ -132,19 +133,19 @@ void product_along_motion(const Subject& subject, const Integrator& integrator, 
   BoundedSteps steps(scene.T(), [&](double t) { return cfl * frozen_at(t).lemma; });
   Eigen::MatrixXd product = Eigen::MatrixXd::Identity(N, N);
   double bound = 1.0;
-  while (const auto step = steps.next()) {
-    double least_rows = unbounded;
-    const RatesAt rates = [&](double fraction) -> const SparseMatrix& {
-      const Frozen& frozen = frozen_at(step->at(fraction));
-      least_rows = std::min(least_rows, frozen.rows);
-      return frozen.R;
-    };
-    take_step(integrator, rates, step->dt, product);
-    bound *= step_bound(integrator, step->dt, least_rows, constants.C);
+  double least_rows = unbounded;
+  const RatesAt rates = [&](double t) -> const SparseMatrix& {
+    const Frozen& frozen = frozen_at(t);
+    least_rows = std::min(least_rows, frozen.rows);
+    return frozen.R;
+  };
+  MatrixSystem system(rates, product);
+  integrate(integrator, system, steps, system, [&](std::int64_t, const TimeStep& step) {
+    bound *= step_bound(integrator, step.dt, std::exchange(least_rows, unbounded), constants.C);
     const double norm = max_norm(product);
-    seen(step->end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
-    if (norm == largest_norm) return;
-  }
+    seen(step.end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
+    return norm != largest_norm;
+  });
 }
 
 struct Measured {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "solver/particles.hpp"
+
 namespace acstudy {
 
 namespace {

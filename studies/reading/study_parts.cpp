@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "solver/time/steps.hpp"
 #include "studies/models/control_choice.hpp"
 #include "studies/models/theory.hpp"
 #include "studies/reading/shared_tables.hpp"

@@ -3,8 +3,6 @@
 /// @file
 /// Time loop of one scheme: source, motion and semidiscretization put together.
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -14,11 +12,12 @@
 #include "mms/source.hpp"
 #include "solver/particles.hpp"
 #include "solver/time/implicit.hpp"
-#include "solver/time/integrators.hpp"
+#include "solver/time/integrate.hpp"
 #include "studies/models/operator.hpp"
 #include "studies/models/scheme.hpp"
 #include "studies/running/outcome.hpp"
 #include "studies/running/run_case.hpp"
+#include "studies/running/step_rule.hpp"
 #include "studies/running/stopwatch.hpp"
 #include "studies/running/watch.hpp"
 
@@ -166,7 +165,7 @@ CaseResult advance(const Case& c, AnyScheme& scheme, Source& source, const std::
   bool interrupted = false;
 
   BoundWatch watch;
-  const auto keep_going = [&](std::int64_t n, TimeStep step) {
+  const auto keep_going = [&](std::int64_t n, const TimeStep& step) {
     watch.step(n, step);
     count_step(result, n, step);
     t = step.end;
@@ -179,16 +178,13 @@ CaseResult advance(const Case& c, AnyScheme& scheme, Source& source, const std::
   const auto start = std::chrono::steady_clock::now();
   try {
     SchemeInMotion<Motion> system(c, scheme, source, motion, watch, result);
-    const auto run = [&](auto steps) { integrate(*c.integrator, u, std::move(steps), system, keep_going); };
-    if (c.step.bound == StepRule::Bound::none) {
-      run(EqualSteps(scene.T(), c.steps));
-    } else {
-      run(BoundedSteps(scene.T(),
-                       [&](double now) { return largest_step(c, now, [&](double at) { return system.bound(at); }); }));
-    }
+    Stepper stepper(*c.integrator, u.size());
+    step_to_end(
+        c, [&](double at) { return system.bound(at); }, [&](const TimeStep& step) { stepper(step, u, system); },
+        keep_going);
   } catch (const std::domain_error& error) {
     growth.restore(u.values());
-    result.failure = fmt::format("{} in step {}, from t = {:.6g} on", error.what(), result.steps + 1, t);
+    result.failure = failure_in_step(error, result, t);
   }
   result.against_bound = watch.result();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

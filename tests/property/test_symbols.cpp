@@ -11,7 +11,7 @@
 #include "mms/source.hpp"
 #include "solver/model1.hpp"
 #include "solver/model2.hpp"
-#include "solver/time/integrators.hpp"
+#include "solver/time/integrate.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
 #include "tests/kernel_integrals.hpp"

@@ -11,6 +11,7 @@
 #include "studies/running/ensemble/sweep_group.hpp"
 #include "studies/running/stopwatch.hpp"
 #include "tests/catch.hpp"
+#include "tests/general_tables.hpp"
 #include "tests/irregular_particles.hpp"
 #include "tests/named_scene.hpp"
 
@@ -318,10 +319,12 @@ CaseResult result_of(Case c, bool readable, int threads = 1) {
 
 TEST_CASE("A run in the vector form ends where the readable one does, whatever the integrator, scene, source and start",
           "[vector]") {
+  std::vector<Integrator> explicit_ones(std::begin(integrators), std::end(integrators));
+  explicit_ones.insert(explicit_ones.end(), std::begin(test::general_tables), std::end(test::general_tables));
+  std::erase_if(explicit_ones, [](const Integrator& integrator) { return integrator.implicit(); });
   for (const char* const name : {"lee-du-2019", "standing-variable-velocity", "lagrangian"}) {
     const auto scene = named_scene(name);
-    for (const Integrator& integrator : integrators) {
-      if (integrator.implicit()) continue;
+    for (const Integrator& integrator : explicit_ones) {
       for (const int model : {1, 2}) {
         for (const bool nonlocal : {false, true}) {
           for (const bool by_lemma : {false, true}) {

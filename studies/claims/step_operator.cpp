@@ -8,12 +8,12 @@
 
 namespace acstudy {
 
-SparseMatrix sparse_rates(const Subject& subject, PlacedScheme& placed) {
+SparseMatrix sparse_rates(PlacedScheme& placed) {
   const auto n = static_cast<int>(placed.size());
   std::vector<Eigen::Triplet<double>> entries;
-  if (subject.scheme.control.empty()) {
+  if (const SchemeRows* const known = placed.scheme().rows()) {
     RateMatrix R;
-    placed.scheme().matrix(R);
+    known->matrix(R);
     for (int j = 0; j < n; ++j) {
       for (std::ptrdiff_t k = R.begin[j]; k < R.begin[j + 1]; ++k) entries.emplace_back(j, R.column[k], R.value[k]);
     }

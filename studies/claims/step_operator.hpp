@@ -16,7 +16,7 @@ namespace acstudy {
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// R with rate(u) = R u, of a scheme or of a control.
-SparseMatrix sparse_rates(const Subject& subject, PlacedScheme& placed);
+SparseMatrix sparse_rates(PlacedScheme& placed);
 
 /// R at time t.
 using RatesAt = std::function<const SparseMatrix&(double t)>;

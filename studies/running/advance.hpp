@@ -54,8 +54,10 @@ class MovingParticles {
 template <class Motion>
 class SchemeInMotion {
  public:
-  /// All arguments outlive the system.  @param result  gets the times and counts of what the scheme does not count
-  SchemeInMotion(const Case& c, Scheme& scheme, Source& source, Motion& motion, BoundWatch& watch, CaseResult& result)
+  /// All arguments outlive the system. The scheme knows its rows if the case is solved for or follows them.  @param
+  /// result  gets the times and counts of what the scheme does not count
+  SchemeInMotion(const Case& c, AnyScheme& scheme, Source& source, Motion& motion, BoundWatch& watch,
+                 CaseResult& result)
       : scheme_(scheme),
         source_(source),
         motion_(motion),
@@ -79,7 +81,7 @@ class SchemeInMotion {
   void solve(double t, double scale, PeriodicArray& u) {
     see(t);
     if (factorized_for_ != scale) {
-      scheme_.matrix(matrix_);
+      scheme_.rows()->matrix(matrix_);
       solver_.factorize(matrix_, scale);
       factorized_for_ = scale;
     }
@@ -90,7 +92,8 @@ class SchemeInMotion {
   /// The bound of the case's step rule at the particles of time t.
   double bound(double t) {
     move(t);
-    return bound_ == StepRule::Bound::rows ? 1.0 / scheme_.strongest_decay() : lemma_bound_ * smallest_gap().width;
+    return bound_ == StepRule::Bound::rows ? 1.0 / scheme_.rows()->strongest_decay()
+                                           : lemma_bound_ * smallest_gap().width;
   }
 
  private:
@@ -131,7 +134,7 @@ class SchemeInMotion {
     if (watched_) watch_.stage(lemma_bound_ * gap_.width, gap_.place);
   }
 
-  Scheme& scheme_;
+  AnyScheme& scheme_;
   Source& source_;
   Motion& motion_;
   BoundWatch& watch_;
@@ -149,7 +152,7 @@ class SchemeInMotion {
 
 /// Integrates from the exact initial values to T and measures the error; one repeat.
 template <class Motion>
-CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::atomic<bool>& stop) {
+CaseResult advance(const Case& c, AnyScheme& scheme, Source& source, const std::atomic<bool>& stop) {
   const Scene& scene = *c.scene;
   const auto count = static_cast<std::size_t>(c.N);
   CaseResult result;

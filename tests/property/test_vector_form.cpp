@@ -44,7 +44,7 @@ std::shared_ptr<const Scene> random_scene(unsigned seed) {
 Case case_on(const std::shared_ptr<const Scene>& scene, int model, bool nonlocal, const KernelChoice& kernel,
              std::size_t N, double delta) {
   return {.scene = scene,
-          .scheme = {model, nonlocal, kernel, {}, {}},
+          .scheme = {find_model(model), nonlocal, kernel, {}, {}},
           .mu = model == 2 ? 2.5 : 0.0,
           .nonlocal_source = false,
           .source_rule = SourceRule::gauss,
@@ -69,7 +69,7 @@ Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector
                             {.c_hat = true,
                              .c_and_b = true,
                              .b_prime = true,
-                             .midpoints = c.scheme.model == 2,
+                             .midpoints = c.scheme.model == &model_two,
                              .phases = true,
                              .delta = c.delta},
                             team);
@@ -350,7 +350,7 @@ TEST_CASE("A run in the vector form ends where the readable one does, whatever t
             constexpr std::int64_t N = 50;
             const double h = scene->period() / N;
             Case c{.scene = scene,
-                   .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                   .scheme = {find_model(model), nonlocal, {"cubic-spline"}, {}, {}},
                    .mu = model == 2 ? 1.6 : 0.0,
                    .nonlocal_source = nonlocal,
                    .source_rule = SourceRule::gauss,
@@ -389,7 +389,7 @@ TEST_CASE("Cases that share their particles end as each would alone", "[vector]"
         for (const bool source : {false, true}) {
           constexpr std::int64_t N = 120;
           cases.push_back({.scene = scene,
-                           .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                           .scheme = {find_model(model), nonlocal, {"cubic-spline"}, {}, {}},
                            .mu = model == 2 ? 4.0 / 3.0 : 0.0,
                            .nonlocal_source = source,
                            .source_rule = SourceRule::gauss,
@@ -477,7 +477,7 @@ TEST_CASE("Velocities that are no short trigonometric series run in the vector f
     for (const int model : {1, 2}) {
       for (const bool nonlocal : {true, false}) {
         const Case c{.scene = scene,
-                     .scheme = {model, nonlocal, {"cubic-spline"}, {}, {}},
+                     .scheme = {find_model(model), nonlocal, {"cubic-spline"}, {}, {}},
                      .mu = model == 2 ? 2.0 : 0.0,
                      .nonlocal_source = smooth,
                      .source_rule = SourceRule::gauss,

@@ -65,13 +65,14 @@ class Ensemble {
       Member& m = members_.emplace_back(*c, count, team_);
       add_source(m, count);
       const bool moving = !scene_.standing(), local = !c->scheme.nonlocal_divergence;
-      needs.c_hat |= c->scheme.model == 1 && moving;
-      needs.c_and_b |= c->scheme.model == 1 && moving && !local;
+      const VectorForm form = c->scheme.model->vector_form;
+      needs.c_hat |= form == VectorForm::upwind && moving;
+      needs.c_and_b |= form == VectorForm::upwind && moving && !local;
       needs.b_prime |= local && moving;
-      needs.midpoints |= c->scheme.model == 2 && moving;
+      needs.midpoints |= form == VectorForm::symmetric && moving;
       needs.phases |= m.source->is_series();
       // The side of a source is that of c_hat.
-      needs.c_hat |= c->scheme.model == 1 && m.source->is_series() && c->nonlocal_source;
+      needs.c_hat |= c->scheme.model->continuum->sided && m.source->is_series() && c->nonlocal_source;
       needs.delta = std::max(needs.delta, c->delta);
     }
     particles_.emplace(scene_, *plans.front().velocity, start_positions(first_.start, count, scene_.period()), needs,
@@ -111,8 +112,8 @@ class Ensemble {
       NonlocalModel model = nonlocal_model(c.scheme, c.mu, c.delta);
       const std::size_t points = c.source_refinement * sufficient_points(scene_, model);
       m.own_source.emplace(
-          scene_, [&](Look look) { return nonlocal_source(scene_, model, points, look); }, c.scheme.model == 1, true,
-          count);
+          scene_, [&](Look look) { return nonlocal_source(scene_, model, points, look); },
+          c.scheme.model->continuum->sided, true, count);
     } else {
       m.own_source.emplace(
           scene_, [&](Look) { return make_source(c.scheme, scene_, c.mu, true, c.delta, c.source_rule); }, false, false,
@@ -279,7 +280,8 @@ class Ensemble {
     if (scene_.standing()) {
       r.work.velocity_evaluations = std::ssize(particles_->x);
     } else {
-      r.work.velocity_evaluations = placements * ((m.c.scheme.model == 1 ? 2 : 0) + (local ? 1 : 0));
+      r.work.velocity_evaluations =
+          placements * ((m.c.scheme.model->vector_form == VectorForm::upwind ? 2 : 0) + (local ? 1 : 0));
       r.flow_evaluations = placements - std::ssize(particles_->x);
     }
     r.quadrature_points = m.source->quadrature_points();

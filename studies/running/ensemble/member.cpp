@@ -28,7 +28,9 @@ ACSTUDY_VECTOR_CLONES double apply_stage(const StageSum stage, const double* rat
 
 Member::Member(const Case& its_case, std::size_t count, const Team& team)
     : c(its_case),
-      values{PeriodicArray(count), PeriodicArray(its_case.scheme.model == 1 && !its_case.scene->standing() ? count : 0),
+      values{PeriodicArray(count),
+             PeriodicArray(
+                 its_case.scheme.model->vector_form == VectorForm::upwind && !its_case.scene->standing() ? count : 0),
              ZeroedVector(count + 16)},
       next(count),
       u_n(its_case.integrator->stage_count() > 1 ? count : 0),

@@ -15,7 +15,7 @@ configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release $(CMAKE_ARGS)
 # its own number of jobs, not that of the make which calls it
 compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
 
-# What the finest errors are made of takes longer than all gates together.
+# What fine errors are made of gates nothing.
 gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 
 # Those whose errors are compared, with finer levels, and those that show how run times scale.
@@ -66,7 +66,7 @@ compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and
 	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \
 	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$python" reports/report.py "$(OUT)"; fi
 
-deep: build  ## figures 1 and 3 to N = 20480, the path sqrt(h) to N = 40960 (some 3 minutes)
+deep: build  ## figures 1 and 3 to N = 20480, the path sqrt(h) to N = 40960, what the finest errors are made of (some 5 minutes)
 	@$(acstudy) run studies/deep/*.toml --out "$(OUT)/deep" --jobs $(JOBS)
 	$(setup) report
 	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/deep"

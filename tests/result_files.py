@@ -36,7 +36,34 @@ def series(**changes):
         error_l2=error / 2, seconds=1e-5 * N, seconds_low=0.9e-5 * N, seconds_high=1.2e-5 * N, repeats=5 * ones,
         source_seconds=1e-6 * N, work_pairs=1000 * N, work_weight_builds=N, work_quadrature_points=0 * N,
         work_velocity_evaluations=N, pairwise=pairwise)
-    return values | changes
+    values |= changes
+    statement, _, limit = values["theory_statement"].partition(": ")
+    order, variable, expected = values["theory_order"], values["theory_variable"], values["expected"]
+    stability = expected in ("stable", "unstable")
+    promised = "stable" if stability else "stagnates" if order == 0 else "confirmed"
+    check = ", ".join(filter(None, (values["path"], values.get("stepping", ""))))
+    of_check = dict(
+        statement="Stiff scenes" if stability else statement, subject="a scheme", check=check,
+        claim="the solution stays bounded" if stability else f"order {order:g} in {variable}" if order else
+              f"the error does not vanish: {limit}",
+        quantity="max-norm error at T", test="order", variable_name=variable,
+        promised=expected if (promised, expected) == ("confirmed", "pre-asymptotic") else promised,
+        alarm=int(values["verdict"] != promised), also_expected="", coordinates=dict(path=values["path"]))
+    return of_check | values
+
+
+def coordinates(check):
+    """Those that the program stores with such words."""
+    first, *others = check.split(", ")
+    found = dict(arrangement=first, study=first)
+    for word in others:
+        if word.startswith("CFL "):
+            found["cfl"] = float(word.removeprefix("CFL "))
+        elif word.startswith("delta = ") and word.endswith("h"):
+            found["delta/h"] = float(word[len("delta = "):-1] or 1)
+        elif "euler" in word or "ssprk" in word or "sdirk" in word:
+            found["integrator"] = word
+    return found
 
 
 def finding(N=(160, 320, 640, 1280), value=None, lower=-math.inf, upper=math.inf, **changes):
@@ -54,7 +81,8 @@ def finding(N=(160, 320, 640, 1280), value=None, lower=-math.inf, upper=math.inf
         alarm=0, reason="as theory says", remark="", labels="",
         N=N, h=h, delta=4 * h, variable=h, value=np.array(h if value is None else value, dtype=float),
         lower=np.zeros(len(N)) + lower, upper=np.zeros(len(N)) + upper)
-    return values | changes
+    values |= changes
+    return dict(coordinates=coordinates(values["check"])) | values
 
 
 def write(folder, name, *all_series, title="A study", fixed_length=False, findings=(), scene=True, **root):
@@ -76,6 +104,8 @@ def write(folder, name, *all_series, title="A study", fixed_length=False, findin
             for key, value in values.items():
                 if isinstance(value, np.ndarray):
                     group[key] = value
+                elif isinstance(value, dict):
+                    group.create_group(key).attrs.update(value)
                 else:
                     group.attrs[key] = text(value) if isinstance(value, str) else value
     return path

@@ -6,7 +6,7 @@ import numpy as np
 
 from drawing import axes
 from drawing.look import GRAY, WIDTH, add_axes, blank, mark_departing, typography
-from drawing.subjects import (GAP, LEFT, RIGHT, arrangement, legend_height, subject_legend, subject_styles,
+from drawing.subjects import (GAP, LEFT, RIGHT, arrangement, conditions, legend_height, subject_legend, subject_styles,
                               variable_math)
 from reading import names
 
@@ -75,7 +75,7 @@ def curves_figure(found, one_bound=False):
 
 
 def _row(finding):
-    return finding.quantity, finding.check.partition(", ")[2], finding.test == "bounds"
+    return finding.quantity, conditions(finding), finding.test == "bounds"
 
 
 def bounded(finding):

@@ -44,4 +44,10 @@ def variable_math(name):
 
 
 def arrangement(finding):
-    return finding.check.partition(", ")[0]
+    """That of the particles; where there are none, all that the check says."""
+    return str(finding.coordinates.get("arrangement", finding.check))
+
+
+def conditions(finding):
+    """What the check says besides the arrangement."""
+    return finding.check.removeprefix(arrangement(finding)).removeprefix(", ")

@@ -31,28 +31,30 @@ Known draw(std::mt19937_64& generator, std::size_t n, bool two_terms, double q) 
 
 }  // namespace
 
-std::vector<CoverageRow> interval_coverage(std::size_t trials, std::uint64_t seed, const IntervalOf& interval,
-                                           double q) {
+std::vector<CoverageRow> interval_coverage(std::size_t trials, std::uint64_t seed, const IntervalOf& interval, double q,
+                                           std::string_view only) {
   std::mt19937_64 generator(seed);
   std::vector<CoverageRow> rows;
   for (const bool two_terms : {false, true}) {
     for (std::size_t n = 4; n <= 8; ++n) {
       CoverageRow row{two_terms ? "two terms" : "power law", n, trials, 0, 0.0};
+      const bool wanted = only.empty() || row.series == only;
       for (std::size_t trial = 0; trial < trials; ++trial) {
         const Known known = draw(generator, n, two_terms, q);
+        if (!wanted) continue;
         const Estimate estimate = interval(known.levels);
         if (estimate.contains(known.order)) ++row.covered;
         row.mean_width += (estimate.high - estimate.low) / static_cast<double>(trials);
       }
-      rows.push_back(row);
+      if (wanted) rows.push_back(row);
     }
   }
   return rows;
 }
 
-std::vector<CoverageRow> interval_coverage(std::size_t trials, std::uint64_t seed, double q) {
+std::vector<CoverageRow> interval_coverage(std::size_t trials, std::uint64_t seed, double q, std::string_view only) {
   return interval_coverage(
-      trials, seed, [](LevelView levels) -> Estimate { return judge(levels, not_estimated); }, q);
+      trials, seed, [](LevelView levels) -> Estimate { return judge(levels, not_estimated); }, q, only);
 }
 
 }  // namespace acstudy

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/judging/fits.hpp"
@@ -33,9 +34,11 @@ using IntervalOf = std::function<Estimate(LevelView)>;
 ///
 /// @param trials    per class and number of levels
 /// @param interval  the one that `judge` reports by default
+/// @param only      the class that is wanted; all are drawn, so its series are the same
 /// @return a row per class and number of levels, the same in every call
-std::vector<CoverageRow> interval_coverage(std::size_t trials, std::uint64_t seed, double q = 1.0);
+std::vector<CoverageRow> interval_coverage(std::size_t trials, std::uint64_t seed, double q = 1.0,
+                                           std::string_view only = "");
 std::vector<CoverageRow> interval_coverage(std::size_t trials, std::uint64_t seed, const IntervalOf& interval,
-                                           double q = 1.0);
+                                           double q = 1.0, std::string_view only = "");
 
 }  // namespace acstudy

@@ -1,11 +1,12 @@
 #include "reports/judging/fits.hpp"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_fit.h>
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
+#include <deque>
+#include <map>
 #include <vector>
 
 #include "mms/gsl_status.hpp"
@@ -19,6 +20,7 @@ constexpr double confidence = 0.95;
 /// Levels as the fits need them: logarithms, and the variable relative to the coarsest level.
 struct Logarithms {
   std::vector<double> v, e, weight, ratio;
+  WeightedLines lines;
 
   explicit Logarithms(LevelView levels) {
     for (const Level& level : levels) {
@@ -27,21 +29,10 @@ struct Logarithms {
       weight.push_back(level.weight);
       ratio.push_back(level.variable / levels.front().variable);
     }
+    lines = {v, weight};
   }
   std::size_t size() const { return v.size(); }
 };
-
-/// Weighted least-squares line; variance of the slope for errors of unit variance over weight.
-struct Line {
-  double intercept, slope, slope_variance, residual;
-};
-
-Line fit_line(const std::vector<double>& x, const std::vector<double>& weight, const std::vector<double>& y) {
-  double intercept, slope, cov00, cov01, cov11, residual;
-  gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &cov00, &cov01, &cov11,
-                  &residual);
-  return {intercept, slope, cov11, residual};
-}
 
 struct Minimum {
   double at, value;
@@ -88,9 +79,9 @@ class Correction {
     for (const double ratio : logs.ratio) power_.push_back(std::pow(ratio, q));
   }
 
-  Line line(double z) const {
+  FittedLine line(double z) const {
     remove(z, 0.0);
-    return fit_line(logs_.v, logs_.weight, corrected_);
+    return logs_.lines.through(corrected_);
   }
 
   /// Sum of squares with the order given too.
@@ -161,7 +152,7 @@ BestLaw best_law(const Logarithms& logs, double q, double v_0) {
   const double highest = highest_z(logs, q);
   const Minimum best =
       minimize([&](double z) { return correction.line(z).residual; }, lowest_z, highest, cells(highest));
-  const Line line = correction.line(best.at);
+  const FittedLine line = correction.line(best.at);
   CorrectedLaw fit;
   fit.order = line.slope;
   fit.C = std::exp(line.intercept);
@@ -200,7 +191,7 @@ Estimate profile(const Logarithms& logs, const BestLaw& best, double bound) {
   // slope falls as z grows, so the lower end lies at larger z than the best fit and the upper end at smaller z.
   const auto end = [&](double sign, double z_end) {
     const auto reach = [&](double trial) {
-      const Line line = correction.line(trial);
+      const FittedLine line = correction.line(trial);
       return -sign * line.slope - std::sqrt(std::max(bound - line.residual, 0.0) * line.slope_variance);
     };
     return -sign * minimize(reach, std::min(best.z, z_end), std::max(best.z, z_end), 6).value;
@@ -227,25 +218,96 @@ constexpr double united_exponents[] = {0.5, 1.0, 2.0, 3.0};
 /// Steps of q in a search for the best one, and its ends.
 constexpr double step_of_q = 0.5, largest_q = 6.0;
 
-/// The best of all exponents: of a few, then of the neighbors of the best.
-BestLaw best_of_all_exponents(const Logarithms& logs, double v_0) {
-  BestLaw best = best_law(logs, 1.0, v_0);
-  const auto improve = [&](double q) {
-    const BestLaw law = best_law(logs, q, v_0);
-    if (law.law.residual < best.law.residual) best = law;
-  };
-  for (const double q : {0.5, 2.0, 4.0, largest_q}) improve(q);
-  const double middle = best.law.q;
-  for (const double step : {-2.0, -1.0, 1.0, 2.0}) {
-    const double q = middle + step * step_of_q;
-    if (q >= step_of_q && q <= largest_q && q != 1.0 && q != 2.0 && q != 4.0) improve(q);
+/// The corrected laws of a series by their q, each fitted once.
+class Laws {
+ public:
+  explicit Laws(LevelView levels) : levels_(levels.begin(), levels.end()), logs_(levels) {}
+
+  bool are_of(LevelView levels) const {
+    return std::equal(levels.begin(), levels.end(), levels_.begin(), levels_.end(), [](const Level& a, const Level& b) {
+      return a.variable == b.variable && a.error == b.error && a.weight == b.weight;
+    });
   }
-  return best;
+  const Logarithms& logs() const { return logs_; }
+
+  const BestLaw& best(double q) {
+    const auto known = by_q_.find(q);
+    return known != by_q_.end() ? known->second
+                                : by_q_.emplace(q, best_law(logs_, q, levels_.front().variable)).first->second;
+  }
+
+  /// The best of all exponents: of a few, then of the neighbors of the best.
+  BestLaw best_of_all_exponents() {
+    BestLaw found = best(1.0);
+    const auto improve = [&](double q) {
+      if (best(q).law.residual < found.law.residual) found = best(q);
+    };
+    for (const double q : {0.5, 2.0, 4.0, largest_q}) improve(q);
+    const double middle = found.law.q;
+    for (const double step : {-2.0, -1.0, 1.0, 2.0}) {
+      const double q = middle + step * step_of_q;
+      if (q >= step_of_q && q <= largest_q && q != 1.0 && q != 2.0 && q != 4.0) improve(q);
+    }
+    return found;
+  }
+
+ private:
+  std::vector<Level> levels_;
+  Logarithms logs_;
+  std::map<double, BestLaw> by_q_;
+};
+
+/// Those of the levels. Judging a series asks for them over and over, for the same windows and with the same levels
+/// left out, so the last are kept; a reference holds until the next call.
+Laws& laws_of(LevelView levels) {
+  thread_local std::deque<Laws> lately;
+  constexpr std::size_t kept = 16;
+  for (Laws& laws : lately) {
+    if (laws.are_of(levels)) return laws;
+  }
+  if (lately.size() == kept) lately.pop_front();
+  return lately.emplace_back(levels);
 }
+
 /// The orders drift if a correction explains so much that chance does so with this probability.
 constexpr double drift_level = 0.02;
 
 }  // namespace
+
+WeightedLines::WeightedLines(std::span<const double> x, std::span<const double> weight)
+    : weight_(weight.begin(), weight.end()), share_(x.size()), dx_(x.size()) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!(weight_[i] > 0.0)) continue;
+    total_ += weight_[i];
+    share_[i] = weight_[i] / total_;
+    mean_ += (x[i] - mean_) * share_[i];
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!(weight_[i] > 0.0)) continue;
+    dx_[i] = x[i] - mean_;
+    square_ += (dx_[i] * dx_[i] - square_) * share_[i];
+  }
+}
+
+FittedLine WeightedLines::through(std::span<const double> y) const {
+  double mean = 0.0, product = 0.0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (weight_[i] > 0.0) mean += (y[i] - mean) * share_[i];
+  }
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (weight_[i] > 0.0) product += (dx_[i] * (y[i] - mean) - product) * share_[i];
+  }
+  FittedLine line;
+  line.slope = product / square_;
+  line.intercept = mean - mean_ * line.slope;
+  line.slope_variance = 1.0 / (total_ * square_);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (!(weight_[i] > 0.0)) continue;
+    const double miss = y[i] - mean - line.slope * dx_[i];
+    line.residual += weight_[i] * miss * miss;
+  }
+  return line;
+}
 
 double student(double probability, std::size_t degrees_of_freedom) {
   return gsl_cdf_tdist_Pinv((1.0 + probability) / 2.0, static_cast<double>(degrees_of_freedom));
@@ -265,7 +327,7 @@ PowerLaw fit_power_law(LevelView levels) {
   PowerLaw fit;
   if (levels.size() < 3) return fit;
   const Logarithms logs(levels);
-  const Line line = fit_line(logs.v, logs.weight, logs.e);
+  const FittedLine line = logs.lines.through(logs.e);
   const std::size_t free = levels.size() - 2;
   const double half_width =
       student(confidence, free) * std::sqrt(line.slope_variance * line.residual / static_cast<double>(free));
@@ -279,20 +341,18 @@ PowerLaw fit_power_law(LevelView levels) {
 
 CorrectedLaw fit_corrected_law_only(LevelView levels, double q) {
   if (levels.size() < 4) return {};
-  const Logarithms logs(levels);
-  return best_law(logs, q, levels.front().variable).law;
+  return laws_of(levels).best(q).law;
 }
 
 CorrectedLaw fit_corrected_law_only(LevelView levels) {
   if (levels.size() < 4) return {};
-  return best_of_all_exponents(Logarithms(levels), levels.front().variable).law;
+  return laws_of(levels).best_of_all_exponents().law;
 }
 
 CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
   if (levels.size() < 4) return {};
-  const Logarithms logs(levels);
-  const double v_0 = levels.front().variable;
-  const BestLaw best = best_of_all_exponents(logs, v_0);
+  Laws& laws = laws_of(levels);
+  const BestLaw best = laws.best_of_all_exponents();
   CorrectedLaw united = best.law;
   united.low = united.high = united.order;
   const bool drift = explains_more(levels, fit_power_law(levels).residual, best.law.residual, 3, drift_level);
@@ -301,14 +361,14 @@ CorrectedLaw fit_corrected_law(LevelView levels, double miss) {
   const double t = student(1.0 - part_of_miss * miss, freedom(levels, 3)), free = freedom(levels, 3);
   const auto unite = [&](const BestLaw& one) {
     const double bound = one.law.residual + t * t * (one.law.residual + known_squares(levels)) / free;
-    const Estimate own = profile(logs, one, bound);
+    const Estimate own = profile(laws.logs(), one, bound);
     united.low = std::min(united.low, own.low);
     united.high = std::max(united.high, own.high);
   };
   unite(best);
   for (const double q : united_exponents) {
     if (q == best.law.q || (few && q > 2.0)) continue;
-    const BestLaw one = best_law(logs, q, v_0);
+    const BestLaw& one = laws.best(q);
     if (!explains_more(levels, one.law.residual, best.law.residual, 3, 0.1 * miss)) unite(one);
   }
   return united;
@@ -344,12 +404,12 @@ FlooredLaw fit_floored_law(LevelView levels) {
       y.push_back(level.error / e_n);
       weight.push_back(level.weight / (y.back() * y.back()));
     }
-    return fit_line(x, weight, y);
+    return WeightedLines(x, weight).through(y);
   };
   const auto residual = [&](double log_p) { return solve(std::exp(log_p)).residual; };
   const double lowest = std::log(0.05), highest = std::log(20.0);
   const Minimum best = minimize(residual, lowest, highest, 24);
-  const Line line = solve(std::exp(best.at));
+  const FittedLine line = solve(std::exp(best.at));
   fit.order = std::exp(best.at);
   fit.C = line.slope * e_n / std::pow(v_0, fit.order);
   fit.F = line.intercept * e_n;

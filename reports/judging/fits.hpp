@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace acstudy {
 
@@ -55,6 +56,26 @@ struct CorrectedLaw : Estimate {
 /// error = C v^p + F, from four levels on. F <= 0: the levels show no floor.
 struct FlooredLaw : Estimate {
   double C = not_estimated, F = not_estimated, residual = not_estimated;
+};
+
+/// Weighted least-squares line; variance of the slope for errors of unit variance over weight.
+struct FittedLine {
+  double intercept = 0.0, slope = 0.0, slope_variance = 0.0, residual = 0.0;
+};
+
+/// Lines through many values at the same places x: what does not depend on the values is computed once. Places of
+/// weight 0 are left out.
+class WeightedLines {
+ public:
+  WeightedLines() = default;
+  /// @param weight  of each place
+  WeightedLines(std::span<const double> x, std::span<const double> weight);
+
+  FittedLine through(std::span<const double> y) const;
+
+ private:
+  std::vector<double> weight_, share_, dx_;
+  double total_ = 0.0, mean_ = 0.0, square_ = 0.0;
 };
 
 PowerLaw fit_power_law(LevelView levels);

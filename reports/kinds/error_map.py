@@ -161,7 +161,7 @@ def _fit_caption(study):
 
 
 def _target(finding):
-    return "nonlocal" if "nonlocal" in finding.check else "local"
+    return finding.coordinates["source"]
 
 
 def cuts_figure(evidence, planes):

@@ -4,6 +4,7 @@ from html import escape
 
 from drawing.curves import curves_figure, drawable
 from drawing.look import Drawing, slug
+from drawing.subjects import arrangement, conditions
 from kinds import kind
 from reading import ledger
 from writing import markup
@@ -20,11 +21,10 @@ def drawings(study, styles):
              and finding.variable_name == "h" and drawable(finding)]
     arrangements = {}
     for finding in found:
-        arrangement, _, case = finding.check.partition(", ")
-        arrangements.setdefault((finding.statement, case), {})[arrangement] = None
+        arrangements.setdefault((finding.statement, conditions(finding)), {})[arrangement(finding)] = None
     groups = {}
     for finding in found:
-        alone = list(arrangements[finding.statement, finding.check.partition(", ")[2]])
+        alone = list(arrangements[finding.statement, conditions(finding)])
         moving = "divergence" in finding.subject
         part = ", moving particles" if moving else f", {alone[0]} particles" if len(alone) == 1 else ""
         groups.setdefault((finding.statement, finding.statement + part), []).append(finding)

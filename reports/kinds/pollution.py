@@ -34,7 +34,7 @@ def shares_figure(found):
     with typography():
         groups = {}
         for finding in found:
-            groups.setdefault(finding.check.partition(", ")[0], []).append(finding)
+            groups.setdefault(finding.coordinates["study"], []).append(finding)
         dots = list(dict.fromkeys(label for finding in found for label in finding.points.label if label not in BARS))
         longest = max(len(finding.subject) for finding in found)
         left, between, foot, above = min(4.0, 0.25 + 0.062 * longest), 0.25, 0.85, 0.12

@@ -107,7 +107,7 @@ def _entry(study, finding, disputed):
     i, margin = closest(finding.points)
     unsharp = finding.promised == "diverges"
     return Entry(study, finding, finding.statement, finding.claim, finding.subject, finding.check, measured(finding),
-                 math.nan if finding.test == "stable" else finding.observed_order,
+                 math.nan if finding.promised == "stable" else finding.observed_order,
                  margin if i is not None and finding.test == "bounds" else math.nan,
                  finding.verdict, " or ".join((finding.expected, *finding.also_expected)), finding.as_expected,
                  finding.control and not disputed, disputed and not unsharp, disputed and unsharp, finding.reason,

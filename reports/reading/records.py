@@ -123,6 +123,7 @@ class Finding:
     alarm: bool         # the statement does not hold of the subject, expected or not
     reason: str
     points: Points
+    coordinates: dict   # name -> text or number: the conditions that `check` says in words, and what else is known
     remark: str = ""
     also_expected: tuple = ()
     fit: dict = None        # of a surface A h^p + B delta^q: A, B, p, p_low, ..., rms; empty for the other tests

@@ -19,7 +19,6 @@ FORMAT = "acstudy-1"
 OF_SERIES = "convergence"
 # Kinds whose series a report shows; the others have theirs as evidence of findings, and reading takes a while.
 _WITH_SERIES = (OF_SERIES, "map")
-STIFF = "Stiff scenes"
 
 
 class ResultError(Exception):
@@ -74,7 +73,7 @@ def _finding(group):
     points = group.record(Points, label=labels)
     if labels and len(labels) != len(points):
         raise ValueError(f"{group.group.name}: {len(labels)} labels, but {len(points)} points")
-    return group.record(Finding, points=points, also_expected=tuple(group.attribute("also_expected", "").split()),
+    return group.record(Finding, points=points, coordinates=group.group_of("coordinates").attributes, also_expected=tuple(group.attribute("also_expected", "").split()),
                         series=None, fit={name.removeprefix("surface_"): float(value) for name, value in
                                           sorted(group.attributes.items()) if name.startswith("surface_")})
 
@@ -84,19 +83,10 @@ def _of_series(group, scene):
     standing = group.attribute("motion") == "standing"  # b = 0, so both divergence forms are one
     scheme = group.record(Scheme, **({"divergence": ""} if standing else {}))
     series = group.record(Series, scheme=scheme, cases=group.record(Cases))
-    order, variable = group.attribute("theory_order"), group.attribute("theory_variable")
-    statement, _, limit = series.theory_statement.partition(": ")
-    claim = f"order {order:g} in {variable}" if order else f"the error does not vanish: {limit}"
-    expected = group.attribute("expected")
-    test, promised = "order", expected if expected in ("confirmed", "pre-asymptotic") else "confirmed"
-    if expected in ("stable", "unstable"):
-        # No order is asked for: nothing of the theorems is tested.
-        statement, claim, test, promised = STIFF, "the solution stays bounded", "stable", "stable"
     cases = series.cases
     unbounded = np.full(len(cases), math.inf)
     return group.record(
-        Finding, statement=statement, claim=claim, subject=names.full_name(scheme), quantity="max-norm error",
+        Finding, subject=names.full_name(scheme),
         check=", ".join(filter(None, (series.path, series.stepping, f"{series.source} source, {scene}"))),
-        variable_name=variable, test=test, promised=promised, alarm=group.attribute("verdict") != promised,
         points=Points(cases.N, cases.h, cases.delta, cases.variable, cases.error_linf, -unbounded, unbounded),
-        series=series)
+        coordinates=group.group_of("coordinates").attributes, series=series)

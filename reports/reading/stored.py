@@ -42,6 +42,11 @@ class Stored:
             raise KeyError(f"{self.group.name}: no attribute {name}")
         return value
 
+    def group_of(self, name):
+        if name not in self.group:
+            raise KeyError(f"{self.group.name}: no group {name}")
+        return Stored(self.group[name])
+
     def _column(self, field, first):
         """A data set by the lower interface of h5py, in a third of the time; as long as the `first`."""
         try:

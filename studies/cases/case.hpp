@@ -20,7 +20,7 @@ namespace acstudy {
 /// How long the steps of a run may be.
 struct StepRule {
   /// Which bound steps follow: none, they are equal; that of Lemma 2.4 or 3.3 at the smallest gap of the moment; or
-  /// what the proofs of these need of the rows, `Scheme::strongest_decay`, at the particles of the moment.
+  /// what the proofs of these need of the rows, `SchemeRows::strongest_decay`, at the particles of the moment.
   enum class Bound { none, lemma, rows };
   Bound bound = Bound::none;
   double safety = 1.0;  ///< fraction of the bound that is taken

@@ -47,6 +47,10 @@ std::string Check::conditions() const {
   return text;
 }
 
+std::string Check::label() const {
+  return series ? subject + ", " + conditions() : statement + ": " + subject + "; " + conditions();
+}
+
 void Check::be_control(const std::string& why, Verdict verdict) {
   expected = verdict;
   remark = "negative control: " + why;

@@ -3,6 +3,7 @@
 /// @file
 /// A check: a statement of theory with all that is known of it before anything is measured.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,12 +64,15 @@ struct Check {
   Verdict expected = Verdict::holds;    ///< the verdict that the study demands: another one for a negative control
   std::vector<Verdict> also_expected;   ///< verdicts that are as right as the expected one
   JudgeOptions known = {.scale = 1.0};  ///< of the size of what the values are errors of; fields have size 1
-  std::string remark;                   ///< what a reader must know besides; may be empty
+  /// Number of the study's series whose errors are judged, where a check is on such a series.
+  std::optional<std::size_t> series = {};
+  std::string remark;  ///< what a reader must know besides; may be empty
 
   /// The spoken coordinates: "jittered, delta = 4h".
   std::string conditions() const;
-  /// The name of the check, of which a study has no second: "Lemma 2.3: Model I, inverse; jittered, delta = 4h".
-  std::string label() const { return statement + ": " + subject + "; " + conditions(); }
+  /// The name of the check, of which a study has no second: "Lemma 2.3: Model I, inverse; jittered, delta = 4h"; of a
+  /// series "Model I, inverse, delta = 4h".
+  std::string label() const;
   /// Makes it one that must fail; `why` it must.
   void be_control(const std::string& why, Verdict verdict = Verdict::violated);
 };

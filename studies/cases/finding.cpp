@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/cases/series_verdict.hpp"
+
 namespace acstudy {
 
 namespace {
@@ -94,6 +96,10 @@ void judge_rate(Judgement& judgement, double theory_order) {
 }  // namespace
 
 void judge(Finding& finding) {
+  if (finding.cases) {
+    judge_series(finding);
+    return;
+  }
   if (!finding.failure.empty()) {
     finding.judgement = {};
     finding.judgement.verdict = Verdict::inconclusive;

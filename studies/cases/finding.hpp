@@ -26,15 +26,33 @@ struct Point {
   std::string label;  ///< what the value is, where a finding has values of several sorts
 };
 
+/// The run that the errors of a series are against, as a level that is none.
+struct ReferenceLevel {
+  std::int64_t N;
+  double variable;  ///< of theory
+};
+
+/// The cases of the series that a finding is the verdict on.
+struct SeriesCases {
+  std::size_t planned = 0, run = 0;
+  bool against_reference = false;
+  std::optional<ReferenceLevel> reference = {};  ///< where its run is done
+  std::string blow_up = {};                      ///< how the first that blew up did so
+};
+
 /// A check with what was measured. What was expected of values that theory turns out not to bound is part of it.
 struct Finding : Check {
   std::vector<Point> points = {};
   std::string failure = {};  ///< why it could not be measured, if so: the verdict is then `inconclusive`
+  std::optional<SeriesCases> cases = {};
 
   Judgement judgement = {};                ///< set by judge()
   std::optional<SurfaceFit> surface = {};  ///< set by judge() for Test::surface, where the values allow it
 
+  /// The verdict is the expected one, and no case is missing. What failed is no evidence that anything is stable.
   bool as_expected() const {
+    if (cases && cases->run < cases->planned) return false;
+    if (!failure.empty() && expected == Verdict::stable) return false;
     return meets(judgement.verdict, expected) ||
            std::find(also_expected.begin(), also_expected.end(), judgement.verdict) != also_expected.end();
   }

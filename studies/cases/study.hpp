@@ -15,12 +15,6 @@
 
 namespace acstudy {
 
-/// The run that the errors of a series are against, as a level that is none.
-struct ReferenceLevel {
-  std::int64_t N;
-  double variable;  ///< of theory
-};
-
 /// One scheme along one path.
 struct Series {
   SchemeChoice scheme;
@@ -40,8 +34,7 @@ struct Series {
   std::string label() const;
 };
 
-/// What a study file asks for. A convergence study is judged by its series. Studies of other kinds are judged by what
-/// they measure; their series are the runs that this needs.
+/// What a study file asks for: what it measures, and the series of runs that this needs.
 struct Study {
   std::string file, text;
   std::string name, title, kind;
@@ -49,8 +42,6 @@ struct Study {
   SourceRule source_rule = SourceRule::gauss;
   std::vector<Series> series;
   std::vector<Measurement> measurements;
-
-  bool judged_by_series() const { return kind == "convergence"; }
 };
 
 }  // namespace acstudy

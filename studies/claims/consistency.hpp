@@ -29,8 +29,8 @@ Measurement consistency_along(const Subject& subject, const LemmaEstimate& estim
 Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& estimate,
                                 const std::vector<std::int64_t>& N, double ratio);
 
-/// Sharpness of Lemma 3.2 as delta goes to zero at fixed h: whether errors grow as its second term would have
-/// it. They do not.  @pre the estimate has one
+/// Sharpness of the second term as delta goes to zero at fixed h: whether errors grow as it would have it. They do
+/// not.  @pre the estimate has one
 Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
                                  const std::vector<double>& ratios);
 

@@ -167,7 +167,7 @@ Check check_of(const WeightsChoice& choice, const std::string& statement, const 
   return {.statement = statement,
           .claim = claim,
           .subject = "kernel " + choice.kernel.label(),
-          .coordinates = {{"of", what + fmt::format(" of {}", choice.model->name)}},
+          .coordinates = {{"of", fmt::format("{} of {}", what, choice.model->name)}},
           .quantity = "max |value / exact - 1|",
           .variable = "delta/h"};
 }

@@ -90,9 +90,7 @@ void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arr
       rows.add_control(named(one), why, [=](Finding& row) { carry(row, one, followed); });
     };
     if (wrong) add_control(*wrong, "a scheme that is not monotone");
-    if (classical) {
-      add_control(*classical, "the classical sum is not monotone");
-    }
+    if (classical) add_control(*classical, "the classical sum is not monotone");
   };
   add("c constant: no over- or undershoot up to CFL 1", "largest excursion from [0, 1]", Followed::range);
   // On equal gaps a step is an average of shifted copies, whose total variation is at most that of one of them.

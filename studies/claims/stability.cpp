@@ -19,7 +19,8 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
 
 namespace {
 
-/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum.
+/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum. The terms of Model I sum to about one, those of D in
+/// Model II to two, and those of A to no more.
 double norm_bound(const Subject& subject, const PlacedScheme& placed, double dt, double growth) {
   const double terms = subject.scheme.model->row_terms * (2.0 * placed.particles().windows.widest + 8.0);
   return 1.0 + dt * growth + terms * std::numeric_limits<double>::epsilon();

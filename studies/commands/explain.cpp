@@ -107,7 +107,10 @@ std::string forms_of(const Series& series) {
 }  // namespace
 
 std::string explain(const Study& study) {
-  if (!study.judged_by_series()) return explain_measurements(study);
+  const auto of_series = [](const Measurement& measurement) { return measurement.check.series.has_value(); };
+  if (!std::all_of(study.measurements.begin(), study.measurements.end(), of_series) || study.measurements.empty()) {
+    return explain_measurements(study);
+  }
   const SceneText& scene = study.scene->text();
   std::string out = fmt::format("{} - {}\n\n", study.name, study.title);
   out += fmt::format("scene {}: period {}, T = {}\n  c = {}\n  b = {}\n{}",
@@ -124,8 +127,9 @@ std::string explain(const Study& study) {
   }
 
   std::size_t count = 0;
-  for (const Series& series : study.series) {
-    out += fmt::format("\n{}, source {}\n", series.label(),
+  for (const Measurement& measurement : study.measurements) {
+    const Series& series = study.series[*measurement.check.series];
+    out += fmt::format("\n{}, source {}\n", measurement.check.label(),
                        series.against_reference ? "given"
                        : series.nonlocal_source ? "nonlocal"
                                                 : "local");

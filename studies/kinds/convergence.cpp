@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "studies/cases/series_verdict.hpp"
 #include "studies/kinds/kinds.hpp"
 #include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
@@ -28,6 +29,7 @@ void read_convergence(const Table& root, Study& study) {
       const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
       for (const Stepping& time : steppings) {
         study.series.push_back(make_series(study, time, entry, paths[p], at_delta));
+        study.measurements.push_back(series_verdict(study.series.back(), study.series.size() - 1));
       }
     }
   }

@@ -20,7 +20,7 @@ using Results = std::vector<SeriesResult>;
 /// times this, but every sum is rounded elsewhere, as this is no power of two. Positions and weights are the same.
 constexpr int other_unit = 3;
 
-/// The finest case of a series and its reruns, as numbers of series of one case each.
+/// A case and its reruns, as numbers of series of one case each.
 struct Reruns {
   std::size_t base, halved_step, other_unit;
   std::optional<std::size_t> third_order, other_source;
@@ -72,6 +72,12 @@ void measure_parts(Finding& finding, const Case& c, const Reruns& reruns, const 
   }
 }
 
+constexpr Key pollution_keys[] = {
+    {"studies", "list of files", "convergence studies, relative to this file"},
+    {"coarser", "whole number", "levels by which a series' case is coarser than its finest", "0"},
+};
+constexpr TableKeys tables[] = {{"[pollution]", pollution_keys}};
+
 /// A study named by another one.  @param at  where it is named
 Study read_named(const std::string& name, const std::string& by, const Place& at) {
   const std::filesystem::path file = std::filesystem::path(by).parent_path() / name;
@@ -94,10 +100,9 @@ Study read_named(const std::string& name, const std::string& by, const Place& at
   return read_study(file.string());
 }
 
-/// Adds the finest case of a series and its reruns to the study.  @param scaled  its scene in other units
-Reruns add_reruns(Study& study, const std::string& study_of_series, const Series& series,
+/// Adds a case of a series and its reruns to the study.  @param scaled  its scene in other units
+Reruns add_reruns(Study& study, const std::string& study_of_series, const Series& series, const Case& c,
                   const std::shared_ptr<const Scene>& scaled) {
-  const Case& c = series.cases.back();
   const auto rerun = [&](const std::string& how, auto change) {
     study.series.push_back(series);
     study.series.back().path = fmt::format("{}, {}, {}", study_of_series, series.path, how);
@@ -128,6 +133,8 @@ Reruns add_reruns(Study& study, const std::string& study_of_series, const Series
 
 void read_pollution(const Table& root, Study& study) {
   const Table table = root.sub_table("pollution");
+  const toml::node* const coarser = table.find("coarser");
+  const std::int64_t levels_below = coarser ? table.whole("coarser", *coarser, 0, 100) : 0;
   for (const toml::node& item : table.list("studies", "studies = [\"fig1.toml\"]")) {
     const auto name = item.value_exact<std::string>();
     if (!name) {
@@ -147,8 +154,13 @@ void read_pollution(const Table& root, Study& study) {
 
     for (const Series& series : named.series) {
       if (series.expected == Verdict::unstable) continue;
-      const Case& c = series.cases.back();
-      const Reruns reruns = add_reruns(study, named.name, series, scaled);
+      const auto levels = std::ssize(series.cases);
+      if (levels_below >= levels) {
+        table.place(*coarser).fail(fmt::format("coarser = {}, but {} of {} has {} levels; it must be less",
+                                               levels_below, series.label(), named.name, levels));
+      }
+      const Case& c = series.cases[static_cast<std::size_t>(levels - 1 - levels_below)];
+      const Reruns reruns = add_reruns(study, named.name, series, c, scaled);
       study.measurements.push_back(
           {{.statement = "error budget",
             .claim = "error = space + time; source, round-off and what is unknown of time are less than 1 % of it",
@@ -161,11 +173,6 @@ void read_pollution(const Table& root, Study& study) {
     }
   }
 }
-
-constexpr Key pollution_keys[] = {
-    {"studies", "list of files", "convergence studies, relative to this file"},
-};
-constexpr TableKeys tables[] = {{"[pollution]", pollution_keys}};
 
 }  // namespace
 

@@ -113,7 +113,7 @@ void read_coverage(const Table& root, Study& study) {
   }
   for (const double q : {0.5, 2.0}) {
     all.push_back(coverage("reported interval", fmt::format("two terms, correction v^{}", q),
-                           [=] { return of_class("two terms", interval_coverage(trials, seed, q)); }));
+                           [=] { return interval_coverage(trials, seed, q, "two terms"); }));
   }
   const auto be_control = [&](const char* why) {
     all.back().check.expected = Verdict::violated;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "studies/storing/estimates.hpp"
 #include "studies/storing/h5_columns.hpp"
 
 namespace acstudy {
@@ -58,8 +59,7 @@ void write_surface(hid_t group, const SurfaceFit& fit) {
 
 }  // namespace
 
-void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
-  const h5::Handle group = h5::create_group(parent, group_name);
+void write_verdict(hid_t group, const Finding& finding) {
   for_each_text(finding, [&](const char* name, const std::string& text) { h5::write_text(group, name, text); });
   h5::write_text(group, "check", finding.conditions());
   const h5::Handle coordinates = h5::create_group(group, "coordinates");
@@ -83,10 +83,16 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
   h5::write_text(group, "reason", finding.judgement.reason);
   h5::write_number<std::int64_t>(group, "as_expected", finding.as_expected() ? 1 : 0);
   h5::write_number<std::int64_t>(group, "alarm", finding.alarm() ? 1 : 0);
-  h5::write_number(group, "observed_order", finding.judgement.order);
-  h5::write_number(group, "observed_low", finding.judgement.low);
-  h5::write_number(group, "observed_high", finding.judgement.high);
+  for (const auto& [name, value] : named_estimates(finding.judgement)) {
+    const bool of_each = name == "order" || name == "low" || name == "high";
+    if (of_each || finding.cases) h5::write_number(group, "observed_" + name, value);
+  }
   h5::write_number(group, "extrapolated_order", finding.judgement.extrapolated);
+}
+
+void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
+  const h5::Handle group = h5::create_group(parent, group_name);
+  write_verdict(group, finding);
   h5::write_columns(group, finding.points, Point{}, [](const Point& p, auto&& visit) { for_each_column(p, visit); });
   std::string labels;
   if (std::any_of(finding.points.begin(), finding.points.end(), [](const Point& p) { return !p.label.empty(); })) {

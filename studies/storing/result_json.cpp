@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "studies/cases/series_verdict.hpp"
 #include "studies/reading/input_error.hpp"
 #include "studies/storing/estimates.hpp"
 #include "studies/storing/json_form.hpp"
@@ -38,44 +39,6 @@ json case_json(const Case& c, const CaseResult& r) {
   c.stored(put);
   CaseResult::stored(r, put);
   return one;
-}
-
-json series_json(const SeriesResult& result) {
-  const Series& series = *result.series;
-  const Judgement& judgement = result.judgement;
-  json out;
-  out["model"] = series.scheme.model->number;
-  out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
-  out["kernel"] = series.scheme.kernel.name;
-  if (const auto& parameter = series.scheme.kernel.row().parameter) {
-    out[std::string(parameter->name())] = series.scheme.kernel.parameter;
-  }
-  if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
-  out["path"] = series.path;
-  out["delta"] = series.delta_text;
-  out["source"] = series.nonlocal_source ? "nonlocal" : "local";
-  out["integrator"] = series.cases.front().integrator->name;
-  out["step"] = series.cases.front().step.label();
-  out["start"] = series.cases.front().start.label();
-  if (!series.stepping.empty()) out["stepping"] = series.stepping;
-  out["motion"] = series.cases.front().scene->standing() ? "standing" : "moving";
-  out["theory"] = {
-      {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
-  out["observed"] = observed_json(judgement);
-  out["verdict"] = name_of(judgement.verdict);
-  out["expected"] = name_of(series.expected);
-  out["as_expected"] = result.as_expected();
-  out["reason"] = judgement.reason;
-  out["cases_planned"] = series.cases.size();
-  out["cases"] = json::array();
-  for (const std::size_t i : result.completed_levels()) {
-    out["cases"].push_back(case_json(series.cases[i], result.results[i]));
-  }
-  if (const CaseResult* const reference = result.reference()) {
-    out["reference"] = case_json(series.cases.back(), *reference);
-    for (const char* const error : {"error_linf", "error_l1", "error_l2"}) out["reference"].erase(error);
-  }
-  return out;
 }
 
 json two_powers_json(const TwoPowers& fit) {
@@ -119,6 +82,7 @@ json finding_json(const Finding& finding) {
   out["as_expected"] = finding.as_expected();
   out["alarm"] = finding.alarm();
   out["reason"] = judgement.reason;
+  if (finding.cases) return out;
   out["points"] = json::array();
   for (const Point& point : finding.points) {
     json one = {
@@ -129,6 +93,40 @@ json finding_json(const Finding& finding) {
       one["upper"] = point.upper;
     }
     out["points"].push_back(one);
+  }
+  return out;
+}
+
+/// A finding on a series with its cases.
+json series_json(const Finding& finding, const SeriesResult& result) {
+  const Series& series = *result.series;
+  json out;
+  out["model"] = series.scheme.model->number;
+  out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
+  out["kernel"] = series.scheme.kernel.name;
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    out[std::string(parameter->name())] = series.scheme.kernel.parameter;
+  }
+  if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
+  out["path"] = series.path;
+  out["delta"] = series.delta_text;
+  out["source"] = series.nonlocal_source ? "nonlocal" : "local";
+  out["integrator"] = series.cases.front().integrator->name;
+  out["step"] = series.cases.front().step.label();
+  out["start"] = series.cases.front().start.label();
+  if (!series.stepping.empty()) out["stepping"] = series.stepping;
+  out["motion"] = series.cases.front().scene->standing() ? "standing" : "moving";
+  out["theory"] = {
+      {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
+  out.update(finding_json(finding));
+  out["cases_planned"] = series.cases.size();
+  out["cases"] = json::array();
+  for (const std::size_t i : result.completed_levels()) {
+    out["cases"].push_back(case_json(series.cases[i], result.results[i]));
+  }
+  if (const CaseResult* const reference = result.reference()) {
+    out["reference"] = case_json(series.cases.back(), *reference);
+    for (const char* const error : {"error_linf", "error_l1", "error_l2"}) out["reference"].erase(error);
   }
   return out;
 }
@@ -179,40 +177,48 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   return record;
 }
 
-SeriesRecord read_series(const std::string& study, const json& series) {
-  SeriesRecord record;
-  record.study = study;
-  const bool standing = series.value("motion", std::string("moving")) == "standing";
-  KernelChoice kernel{series.at("kernel").get<std::string>()};
+FindingRecord read_series(const std::string& study, const json& one, std::size_t number) {
+  const bool standing = one.value("motion", std::string("moving")) == "standing";
+  KernelChoice kernel{one.at("kernel").get<std::string>()};
   if (const NamedKernel* const row = find_kernel(kernel.name); row != nullptr && row->parameter) {
-    kernel.parameter = series.value(std::string(row->parameter->name()), 0.0);
+    kernel.parameter = one.value(std::string(row->parameter->name()), 0.0);
   }
-  const ModelCard* const model = find_model(series.at("model").get<std::int64_t>());
-  if (model == nullptr) throw std::invalid_argument("model = " + series.at("model").dump() + " is none");
-  const SchemeChoice scheme{.model = model,
-                            .nonlocal_divergence = series.at("divergence").get<std::string>() == "nonlocal",
-                            .kernel = kernel};
-  record.label = scheme_label(scheme, standing) + ", " + series.at("path").get<std::string>();
-  if (series.contains("stepping")) record.label += ", " + series.at("stepping").get<std::string>();
-  const json& theory = series.at("theory");
-  const bool by_h = theory.at("variable").get<std::string>() == "h";
-  const auto variable = [by_h](const json& one) {
-    const double h = real(one.at("h"));
-    return by_h ? h : std::max(h, real(one.at("delta")));
+  const ModelCard* const model = find_model(one.at("model").get<std::int64_t>());
+  if (model == nullptr) throw std::invalid_argument("model = " + one.at("model").dump() + " is none");
+  const json& theory = one.at("theory");
+  const Series series{
+      .scheme = {.model = model,
+                 .nonlocal_divergence = one.at("divergence").get<std::string>() == "nonlocal",
+                 .kernel = kernel},
+      .path = one.at("path").get<std::string>(),
+      .delta_text = one.value("delta", ""),
+      .stepping = one.value("stepping", ""),
+      .nonlocal_source = one.value("source", "") == "nonlocal",
+      .theory = {theory.at("variable").get<std::string>(), real(theory.at("order")), theory.value("statement", "")},
+      .expected = verdict(one.at("expected")),
+      .cases = {}};
+  FindingRecord record{
+      study, {series_check(series, one.value("mu", 0.0), standing, number)}, one.at("verdict").get<std::string>()};
+  Finding& finding = record.finding;
+  finding.cases = {.planned = one.value("cases_planned", one.at("cases").size()), .run = one.at("cases").size()};
+  const auto texts_of = [&](const json& c) {
+    if (finding.failure.empty()) finding.failure = c.value("failure", "");
+    if (finding.cases->blow_up.empty()) finding.cases->blow_up = c.value("blow_up", "");
   };
-  for (const json& one : series.at("cases")) {
-    record.levels.push_back({variable(one), real(one.at("error_linf"))});
-    record.solutions.push_back(real(one.value("solution_linf", json(nullptr))));
-    if (record.failure.empty()) record.failure = one.value("failure", "");
+  for (const json& c : one.at("cases")) {
+    const bool by_h = series.theory.variable == "h";
+    const double h = real(c.at("h")), delta = real(by_h ? c.value("delta", json(nullptr)) : c.at("delta"));
+    add_level(finding, {c.value("N", std::int64_t{0}), h, delta, series.variable(h, delta), real(c.at("error_linf"))},
+              real(c.value("solution_linf", json(nullptr))));
+    texts_of(c);
   }
-  if (const auto reference = series.find("reference"); reference != series.end()) {
-    record.reference = {reference->at("N").get<std::int64_t>(), variable(*reference)};
-    if (record.failure.empty()) record.failure = reference->value("failure", "");
+  if (const auto reference = one.find("reference"); reference != one.end()) {
+    finding.cases->reference = {reference->at("N").get<std::int64_t>(),
+                                series.variable(real(reference->at("h")), real(reference->at("delta")))};
+    ++finding.cases->run;
+    texts_of(*reference);
   }
-  record.theory_order = real(theory.at("order"));
-  record.expected = verdict(series.at("expected"));
-  record.verdict = series.at("verdict").get<std::string>();
-  record.cases_planned = series.value("cases_planned", record.levels.size());
+  judge(finding);
   return record;
 }
 
@@ -223,17 +229,17 @@ std::string json_text(const StudyResult& result, const Provenance& provenance) {
   json root = {{"study", study.name}, {"title", study.title}, {"kind", study.kind}};
   root["provenance"] = json::object();
   for (const auto& [name, value] : provenance) root["provenance"][name] = value;
-  // The series of other kinds are runs that their findings rest on; they have no verdict of their own.
-  if (study.judged_by_series()) {
-    root["series"] = json::array();
-    for (const SeriesResult& series : result.series) root["series"].push_back(series_json(series));
-  } else {
-    root["findings_planned"] = study.measurements.size();
-    root["findings"] = json::array();
-    for (const auto& finding : result.findings) {
-      if (finding) root["findings"].push_back(finding_json(*finding));
-    }
+  // Series without a finding of their own are runs that others rest on.
+  if (study.measurements.empty()) root["findings"] = json::array();
+  for (std::size_t i = 0; i < study.measurements.size(); ++i) {
+    const std::optional<Finding>& finding = result.findings[i];
+    const auto& number = study.measurements[i].check.series;
+    if (finding && number) root["series"].push_back(series_json(*finding, result.series[*number]));
+    if (number) continue;
+    if (!root.contains("findings")) root["findings"] = json::array();
+    if (finding) root["findings"].push_back(finding_json(*finding));
   }
+  if (root.contains("findings")) root["findings_planned"] = study.measurements.size();
   return pretty(root) + "\n";
 }
 
@@ -246,12 +252,15 @@ ResultRecord read_json(const std::string& file) {
   try {
     const json root = json::parse(text.str());
     const std::string& study = all.study = root.at("study").get<std::string>();
-    if (root.contains("findings")) {
-      all.findings_planned = root.at("findings_planned").get<std::size_t>();
-      for (const json& finding : root.at("findings")) all.findings.push_back(read_finding(study, finding));
-    } else {
-      for (const json& series : root.at("series")) all.series.push_back(read_series(study, series));
-    }
+    const json none = json::array();
+    const json& findings = root.contains("findings") ? root.at("findings") : none;
+    const json& series = root.contains("findings") ? none : root.at("series");
+    all.findings_planned = root.contains("findings") ? root.at("findings_planned").get<std::size_t>() : series.size();
+    for (const json& one : findings) all.findings.push_back(read_finding(study, one));
+    for (const json& one : series) all.findings.push_back(read_series(study, one, all.findings.size()));
+    std::vector<Check*> checks;
+    for (FindingRecord& record : all.findings) checks.push_back(&record.finding);
+    tell_apart(checks);
   } catch (const json::parse_error& error) {
     throw InputError(fmt::format("{}: not JSON, from byte {} on; {}", file, error.byte, remedy));
   } catch (const json::exception& error) {
@@ -261,7 +270,7 @@ ResultRecord read_json(const std::string& file) {
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("{}: not a result file of acstudy: {}; {}", file, error.what(), remedy));
   }
-  if (all.series.empty() && all.findings.empty() && all.findings_planned == 0) {
+  if (all.findings.empty() && all.findings_planned == 0) {
     throw InputError(fmt::format("{}: the result file has no series, so there is nothing to check", file));
   }
   return all;

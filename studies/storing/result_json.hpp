@@ -15,21 +15,6 @@ namespace acstudy {
 /// The results of a study without the fields; real numbers at 17 significant digits, null for what is not finite.
 std::string json_text(const StudyResult& result, const Provenance& provenance);
 
-/// What a result file says of one series.
-struct SeriesRecord {
-  std::string study, label;
-  std::vector<Level> levels;
-  std::optional<ReferenceLevel> reference;  ///< that errors are against; its run is done
-  std::vector<double> solutions;            ///< largest |u| of each level
-  double theory_order;
-  Verdict expected;
-  std::string verdict;
-  std::string failure;  ///< of the first case that could not be computed
-  std::size_t cases_planned;
-
-  std::size_t cases_run() const { return levels.size() + (reference ? 1 : 0); }
-};
-
 /// What a result file says of one finding; `finding` is judged again from its points.
 struct FindingRecord {
   std::string study;
@@ -39,7 +24,6 @@ struct FindingRecord {
 
 struct ResultRecord {
   std::string study;
-  std::vector<SeriesRecord> series;
   std::vector<FindingRecord> findings;
   std::size_t findings_planned = 0;
 };

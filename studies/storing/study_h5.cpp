@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "build_info.hpp"
+#include "studies/cases/series_verdict.hpp"
 #include "studies/storing/case_h5.hpp"
-#include "studies/storing/estimates.hpp"
 #include "studies/storing/files.hpp"
 #include "studies/storing/finding_h5.hpp"
 #include "studies/storing/keys.hpp"
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* format = "acstudy-1";
 
-void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
+void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result, const Finding& verdict) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
   h5::write_number<std::int64_t>(group, "model", series.scheme.model->number);
@@ -43,18 +43,10 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
   h5::write_text(group, "stepping", series.stepping);
   h5::write_text(group, "motion", series.cases.front().scene->standing() ? "standing" : "moving");
   h5::write_text(group, "theory_variable", series.theory.variable);
-  h5::write_number(group, "theory_order", series.theory.order);
   h5::write_text(group, "theory_statement", series.theory.statement);
-  for (const auto& [name, value] : named_estimates(result.judgement)) {
-    h5::write_number(group, "observed_" + name, value);
-  }
-  h5::write_number(group, "extrapolated_order", result.judgement.extrapolated);
-  h5::write_text(group, "verdict", std::string(name_of(result.judgement.verdict)));
-  h5::write_text(group, "expected", std::string(name_of(series.expected)));
-  h5::write_number<std::int64_t>(group, "as_expected", result.as_expected() ? 1 : 0);
-  h5::write_text(group, "reason", result.judgement.reason);
   h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
-  h5::write_column<double>(group, "pairwise", result.judgement.pairwise);
+  write_verdict(group, verdict);
+  h5::write_column<double>(group, "pairwise", verdict.judgement.pairwise);
 
   write_cases(group, result, result.completed_levels());
   if (result.reference() != nullptr) {
@@ -115,13 +107,20 @@ std::vector<char> study_h5(const StudyResult& result, const Provenance& provenan
     if (text.flow) h5::write_text(scene, "flow", *text.flow);
   }
   const h5::Handle series = h5::create_group(root, "series");
+  std::vector<std::optional<Finding>> verdicts(result.series.size());
+  for (const auto& finding : result.findings) {
+    if (finding && finding->series) verdicts[*finding->series] = finding;
+  }
   for (std::size_t i = 0; i < result.series.size(); ++i) {
-    write_series(series, fmt::format("{:03}", i), result.series[i]);
+    // What a series is evidence of shows its order, even where the gate asks for none.
+    if (!verdicts[i]) verdicts[i] = series_verdict(*result.series[i].series, i).take(result.series);
+    write_series(series, fmt::format("{:03}", i), result.series[i], *verdicts[i]);
   }
   const h5::Handle findings = h5::create_group(root, "findings");
   h5::write_text(root, "findings_key", findings_key(study));
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
-    if (result.findings[i]) write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
+    if (result.findings[i] && !result.findings[i]->series)
+      write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
   }
   return h5::image(root);
 }

@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "studies/cases/finding.hpp"
+#include "studies/cases/series_verdict.hpp"
 
 using namespace acstudy;
 
@@ -120,4 +121,40 @@ TEST_CASE("a check is named by statement, subject and spoken coordinates; the un
   // Negative control: nothing tells these apart.
   Check same = check, again = check;
   CHECK(tell_apart({&same, &again}) == check.label());
+}
+
+TEST_CASE("the verdict on a series is a finding, and one that lacks a case or has failed is no success") {
+  const auto on_series = [](Verdict expected, double error_over_h) {
+    Finding finding{Check{.statement = "Theorem 2.7 (2)",
+                          .subject = "Model I, hat",
+                          .coordinates = {{"path", "delta = 4h"}},
+                          .test = Test::order,
+                          .theory_order = 1.0,
+                          .promised = Verdict::confirmed,
+                          .expected = expected,
+                          .known = {},
+                          .series = 0}};
+    finding.cases = {.planned = 4, .run = 4};
+    for (const double h : {0.1, 0.05, 0.025, 0.0125}) {
+      add_level(finding, {.h = h, .variable = h, .value = error_over_h * h}, 2.0);
+    }
+    judge(finding);
+    return finding;
+  };
+  Finding good = on_series(Verdict::confirmed, 3.0);
+  CHECK(good.label() == "Model I, hat, delta = 4h");
+  CHECK(good.known.scale == 2.0);
+  CHECK(good.as_expected());
+  good.cases->run = 3;
+  CHECK_FALSE(good.as_expected());
+
+  CHECK(on_series(Verdict::stable, 1000.0).as_expected());
+  const Finding beyond = on_series(Verdict::stable, 3000.0);
+  CHECK(beyond.judgement.verdict == Verdict::unstable);
+  CHECK(beyond.judgement.reason == "an error is 300, that of a solution of 2 at most");
+  Finding failed = on_series(Verdict::stable, 1.0);
+  failed.failure = "particles have crossed";
+  judge(failed);
+  CHECK(failed.judgement.verdict == Verdict::inconclusive);
+  CHECK_FALSE(failed.as_expected());
 }

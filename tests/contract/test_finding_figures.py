@@ -148,6 +148,7 @@ class Maps(FigureTest):
 
     def test_a_map_shows_fit_and_paths_and_is_no_convergence_study(self):
         fit = finding(test="surface", subject="Model I, local divergence, inverse", check="local source, delta <= 0.1",
+                      coordinates=dict(source="local"),
                       surface_p=0.98, surface_p_low=0.9, surface_p_high=1.06, surface_q=1.02, surface_q_low=1.0,
                       surface_q_high=1.04, surface_bic=-700.0, surface_bic_sum=-400.0)
         texts = self.texts("map", fit, all_series=self.all_series())

@@ -1,4 +1,7 @@
+#include <gsl/gsl_fit.h>
+
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "reports/judging/orders.hpp"
@@ -20,6 +23,29 @@ std::vector<Level> levels(Error error, std::size_t n = uneven.size()) {
 }
 
 }  // namespace
+
+TEST_CASE("a line is GSL's to the last bit") {
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> uniform(-3.0, 3.0);
+  for (std::size_t n = 3; n <= 9; ++n) {
+    for (int trial = 0; trial < 50; ++trial) {
+      std::vector<double> x(n), weight(n), y(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        x[i] = uniform(generator);
+        weight[i] = trial % 5 == 0 ? 1.0 : trial % 7 == 0 && i == 1 ? 0.0 : std::exp(uniform(generator));
+        y[i] = 2.0 * x[i] + uniform(generator);
+      }
+      const FittedLine line = WeightedLines(x, weight).through(y);
+      double intercept, slope, cov00, cov01, cov11, residual;
+      gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, n, &intercept, &slope, &cov00, &cov01, &cov11,
+                      &residual);
+      CHECK(line.intercept == intercept);
+      CHECK(line.slope == slope);
+      CHECK(line.slope_variance == cov11);
+      CHECK(line.residual == residual);
+    }
+  }
+}
 
 TEST_CASE("a corrected law finds its own parameters") {
   for (const double D : {-1.5, 0.7, 2.0}) {

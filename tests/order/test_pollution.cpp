@@ -162,6 +162,20 @@ TEST_CASE("a budget's cases are the study's own, but for the one thing that each
   CHECK(keys.size() == budget.series.size());
 }
 
+TEST_CASE("a budget is of a coarser level where it is asked for") {
+  const Folder folder;
+  folder.write("tiny.toml", study_text("integrator = \"forward-euler\"\nstep = \"h/4\"\n"));
+  const Study tiny = read_study((folder.path() / "tiny.toml").string());
+  const auto first_key = [&](const std::string& coarser) {
+    return folder.study("studies = [\"tiny.toml\"]\n" + coarser).series[0].cases[0].key();
+  };
+  CHECK(first_key("coarser = 1\n") == tiny.series[0].cases[0].key());
+  CHECK(first_key("coarser = 0\n") == tiny.series[0].cases[1].key());
+  CHECK(first_key("coarser = 0\n") == first_key(""));
+  CHECK(folder.refusal("studies = [\"tiny.toml\"]\ncoarser = 2\n") ==
+        "budget.toml:6:11: coarser = 2, but " + tiny.series[0].label() + " of tiny has 2 levels; it must be less");
+}
+
 TEST_CASE("studies that an error budget cannot be of are refused at their place") {
   const Folder folder;
   folder.write("tiny.toml", study_text("integrator = \"forward-euler\"\nstep = \"h/4\"\n"));

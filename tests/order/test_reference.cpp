@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/cases/series_verdict.hpp"
 #include "studies/cases/study_result.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/models/arrangement.hpp"

@@ -11,10 +11,8 @@ WITHIN = 1 + 1e-6       # round-off of a product of many steps
 
 
 def parts(finding):
-    """(arrangement of the particles, integrator, what else the check says)."""
-    arrangement, _, rest = finding.check.partition(", ")
-    integrator, _, rest = rest.partition(", ")
-    return arrangement, integrator, rest
+    """(arrangement of the particles, integrator)."""
+    return finding.coordinates["arrangement"], finding.coordinates.get("integrator", "")
 
 
 def lemma(finding):

@@ -8,7 +8,7 @@ import numpy as np
 
 from drawing import axes
 from drawing.look import COLORS, DASHES, GRAY, Drawing, mark_departing, typography
-from kinds.stability_map.findings import CAPPED, integrator_of, of_kind, ordered, parts
+from kinds.stability_map.findings import CAPPED, integrator_of, of_kind, ordered
 from kinds.stability_map.panels import panels
 
 
@@ -16,7 +16,7 @@ def drawings(study):
     found = of_kind(study, "growth curve")
     if not found:
         return []
-    horizon = dict.fromkeys(parts(one)[2].rpartition(", CFL ")[0].replace("delta", "δ") for one in found)
+    horizon = dict.fromkeys(f'δ = {one.coordinates["delta/h"]:g}h' for one in found)
     return [Drawing(
         f"{study.name}.growth", f"{study.title}: growth in time", growth_figure(found),
         "Plots of the max norm of all steps up to t against t, a panel per scheme, a curve per integrator and CFL "
@@ -84,7 +84,7 @@ def _allowed(group):
 
 
 def _cfl(finding):
-    return finding.check.rpartition("CFL ")[2]
+    return f'{finding.coordinates["cfl"]:g}'
 
 
 def _positive(values):

@@ -96,8 +96,8 @@ def map_figure(found, study, allowed):
                     panel = add_axes(figure, left + k * (width + gap), top - (i + 1) * tall - i * between, width, tall,
                                      xscale="log", yscale="log")
                     _draw_plane(panel, *values, allowed, colors, norm)
-                    marked |= _draw_limits(panel, [one for one in limits if (one.subject, parts(one)[:2]) ==
-                                                   (subject, parts(finding)[:2])])
+                    marked |= _draw_limits(panel, [one for one in limits if (one.subject, parts(one)) ==
+                                                   (subject, parts(finding))])
                     axes.set_log_limits(panel, x_limits, y_limits, (width, tall))
                     panel.minorticks_off()      # they would take half of the drawing time
                     below = any((subject, other) in planes for other in integrators[i + 1:])

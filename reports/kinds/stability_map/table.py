@@ -17,7 +17,7 @@ def html(study):
     limits = {}
     for kind in (NORM, SPECTRAL):
         for finding in of_kind(study, kind):
-            arrangement, integrator, _ = parts(finding)
+            arrangement, integrator = parts(finding)
             limits.setdefault((finding.subject, arrangement, integrator), {})[kind] = finding
     if not limits:
         return ""

@@ -52,7 +52,8 @@ Bench plan_bench(std::span<const Study> studies, const std::vector<int>& threads
   Bench bench;
   std::unordered_map<std::string, std::size_t> index_of;
   for (const Study& study : studies) {
-    if (!study.judged_by_series()) {
+    const auto of_series = [](const Measurement& measurement) { return measurement.check.series.has_value(); };
+    if (!std::all_of(study.measurements.begin(), study.measurements.end(), of_series)) {
       throw InputError(fmt::format("{}: kind = \"{}\"; bench times the runs of convergence studies, so leave it out",
                                    study.file, study.kind));
     }

@@ -33,24 +33,23 @@ struct Outcome {
   int status = done;
 };
 
-/// Findings are many: `run` shows those that depart, `check` all.
+/// Findings are many: `run` shows those that depart, and those with cases of their own; `check` all.
 void add_findings(Outcome& outcome, const StudyResult& study, bool interrupted_run) {
-  bool all_pass = true;
+  bool all_have_rows = false, all_pass = true;
   for (const auto& finding : study.findings) {
-    if (!finding || finding->as_expected()) continue;
-    all_pass = false;
-    const Verdict verdict = finding->judgement.verdict;
-    outcome.rows.push_back({.study = study.study->name,
-                            .name = finding->label(),
-                            .observed = observed_text(finding->judgement),
-                            .verdict = std::string(name_of(verdict)),
-                            .expected = expected_text(*finding),
-                            .reason = finding->judgement.reason,
-                            .passes = false});
-    const bool failed = !finding->failure.empty() || verdict == Verdict::unstable;
+    if (!finding) continue;
+    const bool of_series = finding->cases.has_value();
+    if (of_series && interrupted_run && finding->cases->run < finding->cases->planned) continue;
+    const bool passes = finding->as_expected();
+    all_have_rows = all_have_rows || of_series;
+    all_pass = all_pass && passes;
+    if (passes && !of_series) continue;
+    outcome.rows.push_back(row_of(study.study->name, *finding));
+    if (passes) continue;
+    const bool failed = !finding->failure.empty() || finding->judgement.verdict == Verdict::unstable;
     outcome.status = std::max<int>(outcome.status, failed ? numerical_failure : departs);
   }
-  if (!all_pass || interrupted_run) return;
+  if (all_have_rows || !all_pass || interrupted_run) return;
   outcome.rows.push_back({.study = study.study->name,
                           .name = fmt::format("{} findings", study.findings.size()),
                           .observed = "-",
@@ -58,29 +57,13 @@ void add_findings(Outcome& outcome, const StudyResult& study, bool interrupted_r
                           .passes = true});
 }
 
-void add_series(Outcome& outcome, const StudyResult& study, bool interrupted_run) {
-  for (const SeriesResult& series : study.series) {
-    if (interrupted_run && series.completed().size() < series.results.size()) continue;
-    const bool passes = series.as_expected();
-    outcome.rows.push_back({.study = study.study->name,
-                            .name = series.series->label(),
-                            .observed = observed_text(series.judgement),
-                            .verdict = std::string(name_of(series.judgement.verdict)),
-                            .expected = std::string(name_of(series.series->expected)),
-                            .reason = series.judgement.reason,
-                            .passes = passes});
-    if (passes) continue;
-    const bool failed = series.failed() || series.judgement.verdict == Verdict::unstable;
-    outcome.status = std::max<int>(outcome.status, failed ? numerical_failure : departs);
-  }
-}
-
 /// Says which series took steps beyond the bound of their lemma, and where that began in its worst case. Steps that
 /// follow the rows' bound mean to.
 void note_steps_beyond_bounds(const std::vector<StudyResult>& studies) {
   for (const StudyResult& study : studies) {
-    if (!study.study->judged_by_series()) continue;
-    for (const SeriesResult& result : study.series) {
+    for (const auto& finding : study.findings) {
+      if (!finding || !finding->series) continue;
+      const SeriesResult& result = study.series[*finding->series];
       const std::vector<Case>& cases = result.series->cases;
       std::size_t worst = 0;
       for (std::size_t i = 1; i < cases.size(); ++i) {
@@ -91,7 +74,7 @@ void note_steps_beyond_bounds(const std::vector<StudyResult>& studies) {
       say(
           fmt::format("note: {}: {}, N = {}: from step {} on (t = {:.4g}, smallest gap at x = {:.6g}) steps are beyond "
                       "the bound of {}, by a factor of up to {:.3g}",
-                      study.study->name, result.series->label(), cases[worst].N, bound.first_step, bound.first_time,
+                      study.study->name, finding->label(), cases[worst].N, bound.first_step, bound.first_time,
                       bound.first_place, result.series->scheme.model->step_lemma.name, bound.largest));
     }
   }
@@ -110,7 +93,7 @@ int run(const std::vector<std::string>& files, const RunOptions& options) {
   const RunResult result = run_studies(studies, options, stop_on_signals());
   Outcome outcome;
   for (const StudyResult& study : result.studies) {
-    (study.study->judged_by_series() ? add_series : add_findings)(outcome, study, result.interrupted);
+    add_findings(outcome, study, result.interrupted);
   }
   fmt::print("{}{} cases computed, {} taken from the store; results in {}\n", table_text(outcome.rows), result.computed,
              result.reused, options.out.string());

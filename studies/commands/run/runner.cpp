@@ -84,7 +84,7 @@ class Runner {
     StudyResult& result = run_.studies.emplace_back(StudyResult{&study, {}, {}});
     open_.cases_of.push_back(0);
     for (const Series& series : study.series) {
-      result.series.push_back({&series, {}, {}});
+      result.series.push_back({&series, {}});
       result.series.back().results.resize(series.cases.size());
       for (std::size_t i = 0; i < series.cases.size(); ++i) take_up({s, result.series.size() - 1, i}, earlier);
     }
@@ -93,6 +93,7 @@ class Runner {
     const bool reusable = open_.cases_of[s] == 0 && stored.findings_key == findings_key(study) && !options_.fresh;
     bool measured = true;
     for (std::size_t i = 0; i < study.measurements.size(); ++i) {
+      if (study.measurements[i].check.series) continue;  // taken whenever the study is written, be it interrupted
       if (const auto found = stored.findings.find(i); reusable && found != stored.findings.end()) {
         result.findings[i] = found->second;
         // The store has their values, but not what a reader sees of them.
@@ -134,7 +135,10 @@ class Runner {
   void finish(std::size_t s) {
     for (SeriesResult& series : run_.studies[s].series) {
       if (series.series->against_reference) compare_with_reference(*series.series, series.results);
-      series.judgement = judge_series(*series.series, series.results);
+    }
+    for (std::size_t i = 0; i < studies_[s].measurements.size(); ++i) {
+      const Measurement& measurement = studies_[s].measurements[i];
+      if (measurement.check.series) run_.studies[s].findings[i] = measurement.take(run_.studies[s].series);
     }
     write_results(options_.out, run_.studies[s], provenance_[s]);
     journals_->finish(s);
@@ -142,8 +146,10 @@ class Runner {
 
   void finish_if_complete(std::size_t s) {
     const auto& findings = run_.studies[s].findings;
-    const auto is_there = [](const auto& finding) { return finding.has_value(); };
-    if (open_.cases_of[s] == 0 && std::all_of(findings.begin(), findings.end(), is_there)) finish(s);
+    const auto& planned = studies_[s].measurements;
+    const bool complete = std::equal(planned.begin(), planned.end(), findings.begin(),
+                                     [](const auto& one, const auto& f) { return one.check.series || f; });
+    if (open_.cases_of[s] == 0 && complete) finish(s);
   }
 
   /// All cases; what comes back is what was thrown.

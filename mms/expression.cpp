@@ -190,8 +190,8 @@ struct Workspace {
   std::vector<const double*> at;  ///< where the values of each node are: here or with fixed points
 };
 
-ACSTUDY_VECTOR_CLONES void node_values(const Node& node, const std::vector<const double*>& at, double* v,
-                                       std::size_t n) {
+ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<const double*>& at, double* v,
+                                        std::size_t n) {
   const double *const a = at[node.a], *const b = at[node.b];
   const auto each = [&](auto&& f) {
     for (std::size_t i = 0; i < n; ++i) v[i] = f(i);
@@ -249,9 +249,9 @@ ACSTUDY_VECTOR_CLONES void node_values(const Node& node, const std::vector<const
 
 /// d = derivative of the node, from the derivatives of its operands; the values are already there. A constant operand
 /// is skipped rather than multiplied by zero, so that x^2 at x = 0 never meets log(0).
-ACSTUDY_VECTOR_CLONES void node_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction,
-                                            const std::vector<const double*>& at, const std::vector<Block>& derivative,
-                                            const double* v, Block& d, std::size_t n) {
+ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction,
+                                             const std::vector<const double*>& at, const std::vector<Block>& derivative,
+                                             const double* v, Block& d, std::size_t n) {
   const double *const a = at[node.a], *const b = at[node.b];
   const Block &da = derivative[node.a], &db = derivative[node.b];
   const bool varies_a = (tape[node.a].depends & direction) != 0, varies_b = (tape[node.b].depends & direction) != 0;
@@ -353,11 +353,11 @@ void Expression::evaluate(std::span<const double> x, std::initializer_list<doubl
        .by_second = out.by_second});
 }
 
-void Expression::run(const Evaluation& evaluation) const {
+void Expression::run(const Sweep& sweep) const {
   thread_local Workspace workspace;
-  const bool first = !evaluation.by_first.empty(), second = !evaluation.by_second.empty();
+  const bool first = !sweep.by_first.empty(), second = !sweep.by_second.empty();
   std::size_t nodes = 0;
-  for (const Evaluation::Value& wanted : evaluation.values) nodes = std::max(nodes, wanted.node + 1);
+  for (const Sweep::Value& wanted : sweep.values) nodes = std::max(nodes, wanted.node + 1);
   if (workspace.value.size() < nodes) workspace.value.resize(nodes);
   if (first && workspace.by_first.size() < nodes) workspace.by_first.resize(nodes);
   if (second && workspace.by_second.size() < nodes) workspace.by_second.resize(nodes);
@@ -366,7 +366,7 @@ void Expression::run(const Evaluation& evaluation) const {
   auto& at = workspace.at;
 
   // Of blocks only what is used is filled: a source is swept over a few samples in every step.
-  const std::size_t width = std::min(block_size, (evaluation.count + vector_width - 1) / vector_width * vector_width);
+  const std::size_t width = std::min(block_size, (sweep.count + vector_width - 1) / vector_width * vector_width);
   const auto fill = [width](Block& block, double with) { std::fill_n(block.begin(), width, with); };
   const auto derive = [&](std::size_t i, unsigned direction, std::vector<Block>& derivative, std::size_t n) {
     const Node& node = tape_[i];
@@ -375,7 +375,7 @@ void Expression::run(const Evaluation& evaluation) const {
     } else if (node.op == Op::variable) {
       fill(derivative[i], 1.0);
     } else {
-      node_derivatives(node, tape_, direction, at, derivative, at[i], derivative[i], n);
+      sweep_derivatives(node, tape_, direction, at, derivative, at[i], derivative[i], n);
     }
   };
   const auto spread = [&](Block& block) { fill(block, block[0]); };
@@ -390,10 +390,10 @@ void Expression::run(const Evaluation& evaluation) const {
       continue;
     }
     if (node.op == Op::constant) fill(value[i], node.constant);
-    if (node.op == Op::variable && static_cast<std::size_t>(node.a) <= evaluation.rest.size()) {
-      fill(value[i], *(evaluation.rest.begin() + node.a - 1));
+    if (node.op == Op::variable && static_cast<std::size_t>(node.a) <= sweep.rest.size()) {
+      fill(value[i], *(sweep.rest.begin() + node.a - 1));
     }
-    node_values(node, at, value[i].data(), vector_width);
+    sweep_values(node, at, value[i].data(), vector_width);
     spread(value[i]);
     if (first) fill(by_first[i], 0.0);
     if (second) {
@@ -402,8 +402,8 @@ void Expression::run(const Evaluation& evaluation) const {
     }
   }
 
-  for (std::size_t begin = 0; begin < evaluation.count; begin += block_size) {
-    const std::size_t here = std::min(block_size, evaluation.count - begin);
+  for (std::size_t begin = 0; begin < sweep.count; begin += block_size) {
+    const std::size_t here = std::min(block_size, sweep.count - begin);
     // Whole vectors only: a remainder in scalar arithmetic would make f(x) depend on where in the array x stands.
     const std::size_t n = (here + vector_width - 1) / vector_width * vector_width;
     const auto known = [&](std::size_t i, const double* values) {
@@ -416,22 +416,22 @@ void Expression::run(const Evaluation& evaluation) const {
     for (std::size_t i = 0; i < nodes; ++i) {
       const Node& node = tape_[i];
       if ((node.depends & 1U) == 0) continue;
-      if (evaluation.fixed != nullptr && node.depends == 1U) {
-        const std::vector<double>& values = evaluation.fixed->values_[i];
-        if (!values.empty()) known(i, values.data() + evaluation.begin + begin);
+      if (sweep.fixed != nullptr && node.depends == 1U) {
+        const std::vector<double>& values = sweep.fixed->values_[i];
+        if (!values.empty()) known(i, values.data() + sweep.begin + begin);
       } else if (node.op == Op::variable) {
-        known(i, evaluation.x + begin);
+        known(i, sweep.x + begin);
       } else {
-        node_values(node, at, value[i].data(), n);
+        sweep_values(node, at, value[i].data(), n);
         if (first) derive(i, 1U, by_first, n);
         if (second) derive(i, 2U, by_second, n);
       }
     }
-    for (const auto& [node, out] : evaluation.values) {
+    for (const auto& [node, out] : sweep.values) {
       if (!out.empty()) std::copy_n(at[node], here, out.begin() + begin);
     }
-    if (first) std::copy_n(by_first[result_].begin(), here, evaluation.by_first.begin() + begin);
-    if (second) std::copy_n(by_second[result_].begin(), here, evaluation.by_second.begin() + begin);
+    if (first) std::copy_n(by_first[result_].begin(), here, sweep.by_first.begin() + begin);
+    if (second) std::copy_n(by_second[result_].begin(), here, sweep.by_second.begin() + begin);
   }
 }
 

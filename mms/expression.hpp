@@ -27,7 +27,7 @@ class ExpressionError : public std::runtime_error {
 /// An expression such as "cos(2*x)/3".
 ///
 /// muParser reads the text; its operators do not compute but record a tape, which is then swept over blocks of points.
-/// The same pass propagates first derivatives (forward mode), hence exact to round-off.
+/// The same sweep propagates first derivatives (forward mode), hence exact to round-off.
 /// Immutable after construction, so shared freely between threads.
 class Expression {
  public:
@@ -54,7 +54,7 @@ class Expression {
     std::span<double> by_second;  ///< df/dp, the second variable
   };
 
-  /// Goes over points x of the first variable, the others (`rest`) being the same for all points.
+  /// Sweeps over points x of the first variable, the others (`rest`) being the same for all points.
   void evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const;
 
   /// The operands of an expression that is factor * atan2(p, q), if it is one.
@@ -111,8 +111,8 @@ class Expression {
 
  private:
   friend class FixedPoints;
-  /// What has to be computed at `count` points, which begin at `x` or with number `begin` of fixed ones.
-  struct Evaluation {
+  /// What a sweep has to compute at `count` points, which begin at `x` or with number `begin` of fixed ones.
+  struct Sweep {
     std::size_t count;
     const double* x = nullptr;
     const FixedPoints* fixed = nullptr;
@@ -125,7 +125,7 @@ class Expression {
     std::initializer_list<Value> values;
     std::span<double> by_first = {}, by_second = {};  ///< of the result
   };
-  void run(const Evaluation& evaluation) const;
+  void run(const Sweep& sweep) const;
 
   std::string text_;
   std::vector<Node> tape_;

@@ -13,13 +13,13 @@ namespace acstudy {
 namespace {
 
 /// cosine holds x at first.  @pre n is a multiple of vector_width, so that every element takes the same path
-ACSTUDY_VECTOR_CLONES void compute_phases(double w, double* cosine, double* sine, std::size_t n) {
+ACSTUDY_VECTOR_CLONES void sweep_phases(double w, double* cosine, double* sine, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) sine[i] = std::sin(w * cosine[i]);
   for (std::size_t i = 0; i < n; ++i) cosine[i] = std::cos(w * cosine[i]);
 }
 
 /// cosine and sine hold q and p at first.  @pre as above
-ACSTUDY_VECTOR_CLONES void compute_angles(double scale, double* cosine, double* sine, double* x, std::size_t n) {
+ACSTUDY_VECTOR_CLONES void sweep_angles(double scale, double* cosine, double* sine, double* x, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) x[i] = scale * std::atan2(sine[i], cosine[i]);
 }
 
@@ -40,15 +40,15 @@ ACSTUDY_VECTOR_CLONES void normalize_twice(double* cosine, double* sine, std::si
   }
 }
 
-/// Calls work(arrays..., n) with n a multiple of vector_width; the rest of the arrays is filled up to a whole vector.
-template <class Work, class... Arrays>
-void in_whole_vectors(Work&& work, std::size_t size, Arrays*... arrays) {
+/// Calls sweep(arrays..., n) with n a multiple of vector_width; the rest of the arrays is filled up to a whole vector.
+template <class Sweep, class... Arrays>
+void in_whole_vectors(Sweep&& sweep, std::size_t size, Arrays*... arrays) {
   const std::size_t whole = size / vector_width * vector_width, rest = size - whole;
-  work(arrays..., whole);
+  sweep(arrays..., whole);
   if (rest == 0) return;
   const auto with_rest = [&](auto... last) {
     (std::copy_n(arrays + whole, rest, last.begin()), ...);
-    work(last.data()..., vector_width);
+    sweep(last.data()..., vector_width);
     (std::copy_n(last.begin(), rest, arrays + whole), ...);
   };
   with_rest(std::array<Arrays, vector_width>{}...);
@@ -60,7 +60,7 @@ void phases(std::span<const double> x, double period, const PhasesOut& out) {
   const auto fill = [&](double w, std::span<double> cosine, std::span<double> sine) {
     if (cosine.empty()) return;
     std::copy(x.begin(), x.end(), cosine.begin());
-    in_whole_vectors([w](auto... arrays_and_n) { compute_phases(w, arrays_and_n...); }, x.size(), cosine.data(),
+    in_whole_vectors([w](auto... arrays_and_n) { sweep_phases(w, arrays_and_n...); }, x.size(), cosine.data(),
                      sine.data());
   };
   fill(2.0 * std::numbers::pi / period, out.cosine, out.sine);
@@ -69,8 +69,8 @@ void phases(std::span<const double> x, double period, const PhasesOut& out) {
 
 void phases_of_angles(double period, std::span<double> x, const PhasesOut& out) {
   double *const C = out.cosine.data(), *const S = out.sine.data();
-  in_whole_vectors([&](auto... arrays_and_n) { compute_angles(period / std::numbers::pi, arrays_and_n...); }, x.size(),
-                   C, S, x.data());
+  in_whole_vectors([&](auto... arrays_and_n) { sweep_angles(period / std::numbers::pi, arrays_and_n...); }, x.size(), C,
+                   S, x.data());
   if (!out.half_cosine.empty()) {
     std::copy_n(C, x.size(), out.half_cosine.begin());
     std::copy_n(S, x.size(), out.half_sine.begin());

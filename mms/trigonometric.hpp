@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Smooth periodic fields as short trigonometric series: what costs a pass over an expression becomes a few
+/// Smooth periodic fields as short trigonometric series: what costs a sweep over an expression becomes a few
 /// multiplications at points whose phases are known.
 
 #include <cstddef>

@@ -126,7 +126,8 @@ Check check_of(const Subject& subject, const LemmaEstimate& estimate, const std:
 
 }  // namespace
 
-Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Resolutions& resolutions) {
+Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate,
+                                       const Resolutions& resolutions) {
   Check check = check_of(subject, estimate, claim(estimate), {"delta", "whatever delta"}, Test::bounds);
   check.quantity += estimate.nonlocal ? " / h" : " / max(h, delta)";
   if (!estimate.second_term.empty()) {

@@ -12,7 +12,7 @@ namespace {
 
 void read_identities(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
-  const Resolutions resolutions = read_resolutions(root.sub_table("resolutions"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene);
   std::vector<Measurement>& all = study.measurements;
   std::set<std::string> kernels;
   for (const Subject& subject : read_subjects(root, study.scene)) {
@@ -25,7 +25,8 @@ void read_identities(const Table& root, Study& study) {
     all.push_back(weights_cancel(subject, resolutions));
     for (const bool one_sided : {false, true}) all.push_back(second_moment_is_bounded(subject, resolutions, one_sided));
     all.push_back(renormalization_is_near_one(subject, resolutions));
-    for (const double delta : resolutions.horizons) all.push_back(order_of_renormalization(subject, resolutions.N, delta));
+    for (const double delta : resolutions.horizons)
+      all.push_back(order_of_renormalization(subject, resolutions.N, delta));
     if (subject.arrangement == Arrangement::uniform) all.push_back(renormalization_is_at_least_one(subject, 16));
   }
 }

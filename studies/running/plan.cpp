@@ -33,17 +33,24 @@ bool has_panels(const Case& c) {
 
 /// What the sums over several particles at a time are not made for.
 bool asks_for_readable(const Case& c) {
-  return c.readable || c.scheme.model->vector_form == VectorForm::none || c.integrator->implicit() ||
-         c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows;
+  return c.readable || c.integrator->implicit() || c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows;
 }
 
-/// Velocities at midpoints, of symmetric sums on moving particles, have to be short trigonometric series, or smooth
-/// enough for polynomials on panels.
+/// Velocities at midpoints, which symmetric sums on moving particles need, have to be short trigonometric series, or
+/// smooth enough for polynomials on panels.
 bool vector_takes(const Plan& plan) {
   const Case& c = *plan.c;
   if (asks_for_readable(c)) return false;
-  return c.scene->standing() || c.scheme.model->vector_form == VectorForm::upwind || plan.velocity->modes ||
-         has_panels(c);
+  if (c.scene->standing()) return true;
+  switch (c.scheme.model->vector_form) {
+    case VectorForm::none:
+      return false;
+    case VectorForm::upwind:
+      return true;
+    case VectorForm::symmetric:
+      return plan.velocity->modes || has_panels(c);
+  }
+  return false;
 }
 
 bool far_takes(const Plan& plan) {

@@ -60,9 +60,15 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
 bool SweepGroup::far_pays(const Case& c, bool modes) {
   const SweepKernel kernel = Kernel(c.scheme.kernel).sweep;
   const double neighbors = c.delta / c.scene->period() * static_cast<double>(c.N);
-  return c.scheme.model->vector_form == VectorForm::upwind
-             ? far::far_pays(UpwindSweep{kernel}, neighbors)
-             : modes && far::far_pays(SymmetricSweep{.kernel = kernel}, neighbors);
+  switch (c.scheme.model->vector_form) {
+    case VectorForm::none:
+      return false;
+    case VectorForm::upwind:
+      return far::far_pays(UpwindSweep{kernel}, neighbors);
+    case VectorForm::symmetric:
+      return modes && far::far_pays(SymmetricSweep{.kernel = kernel}, neighbors);
+  }
+  return false;
 }
 
 SweepGroup::~SweepGroup() = default;

@@ -113,10 +113,15 @@ template <Kernel K>
 double error_of_weights(CellWeights of, const K& kernel, const Side& at, CellForm form) {
   const std::vector<double> W = weights(of, kernel, at, form);
   double largest = 0.0;
+  Exact inner = exact_integral(of, kernel, Exact(0));
+  std::ptrdiff_t inner_of = 0;  // the neighbor whose cell ends there
   for (std::ptrdiff_t k = 1; k <= at.last; ++k) {
     if (k > 64 && k % 16 != 0 && k != at.last) continue;
-    const Exact inner = k == 1 ? Exact(0) : at.exact_end(k - 1);
-    Exact exact = exact_integral(of, kernel, at.exact_end(k)) - exact_integral(of, kernel, inner);
+    if (inner_of != k - 1) inner = exact_integral(of, kernel, at.exact_end(k - 1));
+    const Exact outer = exact_integral(of, kernel, at.exact_end(k));
+    Exact exact = outer - inner;
+    inner = outer;
+    inner_of = k;
     if (of == CellWeights::moments_over_distance) exact /= at.distance(k);
     const double error = relative_error(W[static_cast<std::size_t>(k - 1)], exact);
     if (worse(error, largest)) largest = error;

@@ -66,7 +66,23 @@ struct Frozen {
     };
     rows = viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
   }
+
+  /// Of R; computed once for all steps.
+  const Eigen::VectorXcd& eigenvalues() const {
+    if (!eigenvalues_) eigenvalues_ = Eigen::MatrixXd(R).eigenvalues();
+    return *eigenvalues_;
+  }
+
+ private:
+  mutable std::optional<Eigen::VectorXcd> eigenvalues_;
 };
+
+/// Those of all particles of the subject's arrangement.
+std::vector<Frozen> all_frozen(const Subject& subject, const Constants& constants, std::int64_t N, double delta) {
+  std::vector<Frozen> all;
+  for (const std::vector<double>& x : subject.positions(N)) all.emplace_back(subject, constants, x, delta);
+  return all;
+}
 
 /// The largest dt at which the integrator's stability function phi(C dt) has no pole yet.
 double up_to_the_pole(const Integrator& integrator, double C) {
@@ -155,10 +171,10 @@ struct Measured {
 /// The worst of the arrangement's particles, which is the one nearest to its bound or beyond; where none is bounded,
 /// the largest.
 template <class Take>
-Point worst_of(const Subject& subject, const Constants& constants, std::int64_t N, double delta, Take&& take) {
-  Point worst{.N = N, .h = subject.scene->period() / static_cast<double>(N), .delta = delta, .value = NAN};
-  for (const std::vector<double>& x : subject.positions(N)) {
-    const Measured now = take(Frozen(subject, constants, x, delta));
+Point worst_of(const std::vector<Frozen>& all, Take&& take) {
+  Point worst{.value = NAN};
+  for (const Frozen& frozen : all) {
+    const Measured now = take(frozen);
     const bool first = std::isnan(worst.value), bounded = std::isfinite(now.bound), was = std::isfinite(worst.upper);
     if (first || (bounded && !was) ||
         (bounded == was && now.value / (was ? now.bound : 1.0) > worst.value / (was ? worst.upper : 1.0))) {
@@ -169,15 +185,13 @@ Point worst_of(const Subject& subject, const Constants& constants, std::int64_t 
   return worst;
 }
 
-/// Measures steps on frozen particles; eigenvalues are computed once for all steps.
+/// Measures steps on frozen particles.
 class FrozenMeter {
  public:
   FrozenMeter(const Integrator& integrator, const Frozen& frozen, Measure measure)
-      : integrator_(integrator), frozen_(frozen), measure_(measure) {
-    if (measure == Measure::spectral) eigenvalues_ = Eigen::MatrixXd(frozen.R).eigenvalues();
-  }
+      : integrator_(integrator), frozen_(frozen), measure_(measure) {}
   double operator()(double dt) const {
-    if (measure_ == Measure::spectral) return spectral_radius(integrator_, eigenvalues_, dt);
+    if (measure_ == Measure::spectral) return spectral_radius(integrator_, frozen_.eigenvalues(), dt);
     return max_norm(step_operator(integrator_, frozen_.R, dt));
   }
 
@@ -185,7 +199,6 @@ class FrozenMeter {
   const Integrator& integrator_;
   const Frozen& frozen_;
   Measure measure_;
-  Eigen::VectorXcd eigenvalues_;
 };
 
 bool relative_velocity_keeps_its_sign(const Scene& scene) {
@@ -215,27 +228,39 @@ std::string entries_claim(const Subject& subject, const Integrator& integrator) 
                      radius == 1.0 ? "" : "1 + sqrt(2) times ", lemma.where_positive);
 }
 
-/// A point of the map: a measure at a horizon and a CFL number.
-Point map_point(const Subject& subject, const Integrator& integrator, const Constants& constants, std::int64_t N,
-                double ratio, double cfl, Measure measure) {
-  const double delta = ratio * subject.scene->period() / static_cast<double>(N);
-  if (measure == Measure::growth && subject.arrangement == Arrangement::moved) {
-    Point point{.N = N, .h = delta / ratio, .delta = delta};
-    product_along_motion(subject, integrator, N, delta, cfl, [&](double, double norm, double bound) {
-      point.value = norm;
-      point.upper = bound;
-    });
-    return point;
-  }
+/// A row of the map: a measure at a horizon and all CFL numbers.
+void measure_row(Finding& finding, const Subject& subject, const Integrator& integrator, const Constants& constants,
+                 const StabilityGrid& grid, double ratio, Measure measure) {
+  const double h = subject.scene->period() / static_cast<double>(grid.N),
+               delta = ratio * subject.scene->period() / static_cast<double>(grid.N);
+  const bool moving = measure == Measure::growth && subject.arrangement == Arrangement::moved;
+  const std::vector<Frozen> all = moving ? std::vector<Frozen>() : all_frozen(subject, constants, grid.N, delta);
   const double C = constants.C, T = subject.scene->T();
-  return worst_of(subject, constants, N, delta, [&](const Frozen& frozen) -> Measured {
-    const double dt = cfl * frozen.lemma, bound = step_bound(integrator, dt, frozen.rows, C);
-    if (measure != Measure::growth) return {FrozenMeter(integrator, frozen, measure)(dt), bound * (1.0 + round_off)};
-    const std::int64_t n = steps_for(T, dt);
-    const double equal = T / static_cast<double>(n);
-    const double total = std::pow(step_bound(integrator, equal, frozen.rows, C), static_cast<double>(n));
-    return {norm_of_power(step_operator(integrator, frozen.R, equal), n), total * (1.0 + 1e-9)};
-  });
+  for (const double cfl : grid.cfl) {
+    Point point;
+    if (moving) {
+      product_along_motion(subject, integrator, grid.N, delta, cfl, [&](double, double norm, double bound) {
+        point.value = norm;
+        point.upper = bound;
+      });
+    } else {
+      point = worst_of(all, [&](const Frozen& frozen) -> Measured {
+        const double dt = cfl * frozen.lemma, bound = step_bound(integrator, dt, frozen.rows, C);
+        if (measure != Measure::growth)
+          return {FrozenMeter(integrator, frozen, measure)(dt), bound * (1.0 + round_off)};
+        const std::int64_t n = steps_for(T, dt);
+        const double equal = T / static_cast<double>(n);
+        const double total = std::pow(step_bound(integrator, equal, frozen.rows, C), static_cast<double>(n));
+        return {norm_of_power(step_operator(integrator, frozen.R, equal), n), total * (1.0 + 1e-9)};
+      });
+    }
+    // The horizon over its ratio is h but for round-off.
+    point.N = grid.N;
+    point.h = moving ? delta / ratio : h;
+    point.delta = delta;
+    point.variable = cfl;
+    finding.points.push_back(point);
+  }
 }
 
 /// The first CFL number that is not stable, a quarter farther each time; then between it and the last stable one.
@@ -316,10 +341,10 @@ void measure_smallest_entries(Finding& finding, const Subject& subject, const In
   const Constants constants(subject);
   for (const double ratio : grid.ratios) {
     const double delta = ratio * scene.period() / static_cast<double>(grid.N);
+    const std::vector<Frozen> all = all_frozen(subject, constants, grid.N, delta);
     for (const double cfl : grid.cfl) {
       Point worst{.N = grid.N, .h = delta / ratio, .delta = delta, .variable = cfl, .value = unbounded};
-      for (const std::vector<double>& positions : subject.positions(grid.N)) {
-        const Frozen frozen(subject, constants, positions, delta);
+      for (const Frozen& frozen : all) {
         const double dt = cfl * frozen.lemma;
         const double value = step_operator(integrator, frozen.R, dt).minCoeff();
         const bool promised = entries_are_promised(subject, integrator, frozen, constants, dt);
@@ -356,10 +381,7 @@ Measurement stability_map(const Subject& subject, const Integrator& integrator, 
       [=, &integrator](Finding& finding) {
         const Constants constants(subject);
         for (const double ratio : grid.ratios) {
-          for (const double cfl : grid.cfl) {
-            finding.points.push_back(map_point(subject, integrator, constants, grid.N, ratio, cfl, measure));
-            finding.points.back().variable = cfl;
-          }
+          measure_row(finding, subject, integrator, constants, grid, ratio, measure);
         }
       });
 }

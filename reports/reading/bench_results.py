@@ -16,7 +16,6 @@ from reading.results import ResultError, Scheme
 FORMAT = "acstudy-bench-1"
 PLACES = "bench*/bench.json"    # in the folder of the results
 PARTS = ("positions_seconds", "weights_seconds", "pairs_seconds", "source_seconds")
-WORK = ("pairs", "weight_builds", "quadrature_points", "velocity_evaluations", "flow_evaluations")
 
 
 @dataclass(frozen=True)
@@ -50,7 +49,7 @@ class Curve:
     error: np.ndarray       # max norm; NaN: no solution
     seconds: Spread
     parts: dict             # {name of PARTS: Spread}
-    work: dict              # {name of WORK: array}
+    pairs: np.ndarray       # pair interactions
     runs: np.ndarray        # number of samples
 
     def __len__(self):
@@ -131,7 +130,7 @@ def _curve(identity, group, all_cases):
                  motion=motion, scene=scene, T=T, threads=threads, N=column("N").astype(np.int64), h=column("h"),
                  delta=column("delta"), steps=column("steps").astype(np.int64), stages=column("stages"),
                  error=column("error_linf"), seconds=spread("seconds"), parts={name: spread(name) for name in PARTS},
-                 work={name: column("work", name) for name in WORK},
+                 pairs=column("work", "pairs"),
                  runs=np.array([len(case.get("samples", {}).get("seconds", ())) for case in cases]))
 
 

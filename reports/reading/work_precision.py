@@ -136,7 +136,7 @@ def costs(curves):
         N, neighbors, seconds, deviation, pairs, updates = (
             np.concatenate([of(curve) for curve in group])
             for of in (lambda c: c.N, lambda c: c.neighbors, lambda c: c.seconds.median, lambda c: c.seconds.deviation,
-                       lambda c: c.work["pairs"], lambda c: c.N * c.steps * c.stages))
+                       lambda c: c.pairs, lambda c: c.N * c.steps * c.stages))
         quiet = deviation <= NOISE * seconds
         found[scheme, step] = Cost(fit_law(N, neighbors, seconds, quiet & (seconds >= SHORTEST)),
                                    fit_law(N, neighbors, pairs), fit_prices(updates, pairs, seconds, quiet))

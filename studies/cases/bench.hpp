@@ -11,12 +11,19 @@
 
 namespace acstudy {
 
-/// One timed run of a case.
-struct Sample {
+/// One timed run of a case, and the parts of its time.
+struct Sample : PartSeconds {
   std::int64_t round = 0;    ///< counted from 1; in a round every case that needs another run has one
   std::int64_t session = 0;  ///< counted from 1; a bench that was interrupted has several
-  double seconds = 0.0;      ///< of the whole time loop, and the parts of it that are timed apart
-  double positions_seconds = 0.0, weights_seconds = 0.0, pairs_seconds = 0.0, source_seconds = 0.0;
+  double seconds = 0.0;      ///< of the whole time loop
+
+  template <class Record, class Visit>
+  static void stored(Record& r, Visit&& visit) {
+    visit(Stored{"round"}, r.round);
+    visit(Stored{"session"}, r.session);
+    visit(Stored{.name = "seconds", .timed = true}, r.seconds);
+    PartSeconds::stored(r, visit);
+  }
 };
 
 /// A case with a number of threads, what came out, and its samples.

@@ -11,6 +11,7 @@
 #include "mms/scene.hpp"
 #include "mms/source.hpp"
 #include "solver/time/integrators.hpp"
+#include "studies/cases/stored.hpp"
 #include "studies/models/arrangement.hpp"
 #include "studies/models/scheme_choice.hpp"
 
@@ -33,7 +34,7 @@ struct StepRule {
 struct Case {
   std::shared_ptr<const Scene> scene;
   SchemeChoice scheme;
-  double mu;  ///< of Model II; 0 for Model I
+  double mu;  ///< of a viscous model; else 0
   bool nonlocal_source;
   SourceRule source_rule;
   const Integrator* integrator;
@@ -46,11 +47,19 @@ struct Case {
   bool readable = false;              ///< run in the readable form of the scheme even where there is a vector form
   std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
 
+  /// Its inputs that are stored case by case; what a series has in common is stored with the series.
+  template <class Visit>
+  void stored(Visit&& visit) const {
+    visit(Stored{"N"}, N);
+    visit(Stored{"h"}, h);
+    visit(Stored{"delta"}, delta);
+  }
+
   /// Text that is equal for two cases exactly if all their inputs are equal.
   std::string key() const;
   /// Rough number of pair interactions, to start the longest case first.
   double estimated_work() const;
-  /// `lemma_step` of this case.
+  /// The largest forward Euler step that the lemma of the model allows at a smallest gap.
   double lemma_bound(double h_min) const;
   /// CFL number at the start: dt over the bound of the lemma.
   double cfl() const { return dt / lemma_bound(h * start.smallest_gap); }

@@ -93,27 +93,6 @@ void judge_rate(Judgement& judgement, double theory_order) {
 
 }  // namespace
 
-std::string_view name_of(Test test) {
-  switch (test) {
-    case Test::order:
-      return "order";
-    case Test::rate:
-      return "rate";
-    case Test::bounds:
-      return "bounds";
-    case Test::surface:
-      return "surface";
-  }
-  return "";
-}
-
-std::optional<Test> test_from(std::string_view name) {
-  for (const Test test : {Test::order, Test::rate, Test::bounds, Test::surface}) {
-    if (name_of(test) == name) return test;
-  }
-  return std::nullopt;
-}
-
 void judge(Finding& finding) {
   if (!finding.failure.empty()) {
     finding.judgement = {};

@@ -4,14 +4,13 @@
 /// What a study asks for: its series of cases and its measurements.
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "reports/judging/orders.hpp"
 #include "studies/cases/case.hpp"
-#include "studies/cases/finding.hpp"
+#include "studies/cases/measurement.hpp"
 #include "studies/models/theory.hpp"
 
 namespace acstudy {
@@ -39,14 +38,6 @@ struct Series {
   /// Value of theory's variable at a case.
   double variable(double h, double delta) const { return theory.variable == "h" ? h : std::max(h, delta); }
   std::string label() const;
-};
-
-struct SeriesResult;
-
-/// One statement to be measured; `take` gets the results of the study's series, which may be none.
-struct Measurement {
-  std::string name;
-  std::function<Finding(const std::vector<SeriesResult>&)> take;
 };
 
 /// What a study file asks for. A convergence study is judged by its series. Studies of other kinds are judged by what

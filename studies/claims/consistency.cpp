@@ -3,53 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace acstudy {
 
 namespace {
 
-constexpr std::array model1_estimates = {
-    LemmaEstimate{"Lemma 2.3", "max |G_h - G|", false, true},
-    LemmaEstimate{"Lemma 2.5", "max |G_h - d/dx|", false, false},
-};
-constexpr std::array model2_estimates = {
-    LemmaEstimate{"Lemma 3.2, A", "max |A_h - A|", false, true},
-    LemmaEstimate{"Lemma 3.2, D", "max |D_h - D|", true, true},
-    LemmaEstimate{"Lemma 3.4, A", "max |A_h - d/dx|", false, false},
-    LemmaEstimate{"Lemma 3.4, D", "max |reach D_h|", true, false},
-};
-
 double variable(const LemmaEstimate& estimate, double h, double delta) {
   return estimate.nonlocal ? h : std::max(h, delta);
 }
 
 /// What the statement says, and what is known to hold instead.
-std::string claim(const Subject& subject, const LemmaEstimate& estimate) {
+std::string claim(const LemmaEstimate& estimate) {
   if (!estimate.nonlocal) return "O(max(h, delta))";
-  if (subject.scheme.model == 1) return "O(h), whatever delta";
-  return estimate.viscous ? "O(h) + O(h^3/delta^2)" : "O(h) + O(h^2/delta)";
+  return estimate.second_term.empty() ? "O(h), whatever delta" : fmt::format("O(h) + O({})", estimate.second_term);
 }
 
 double reach(const Particles& particles, std::ptrdiff_t j) {
   const double* const x = particles.x.at(j);
   return std::max({particles.delta, x[0] - x[-particles.windows.left[j]], x[particles.windows.right[j]] - x[0]});
-}
-
-/// C of error <= C h, or of error <= C max(h, delta), at this horizon: Taylor's formula and the moments of the weights.
-/// Nothing is fitted. The largest C of all horizons, which is finite, is the constant of the lemma.
-double constant(const Subject& subject, const LemmaEstimate& estimate, const FieldBounds& f, const Gaps& gap,
-                double delta) {
-  const double divergence = subject.scheme.nonlocal_divergence ? f.b_2 * f.u : 0.0;
-  if (subject.scheme.model == 1) return 0.5 * (f.flux_2 + divergence);
-  const double curvature = 0.5 * f.c_hat_2 * f.u + f.c_hat_1 * f.u_1 + f.c_hat * f.u_2 + 0.5 * divergence;
-  if (!estimate.nonlocal) return 0.5 * (estimate.viscous ? f.u_2 : curvature);
-  const double by_way_of_pde = (estimate.viscous ? f.u_3 / 3.0 : curvature) * std::max(1.0, delta / gap.largest);
-  if (delta < gap.largest) return by_way_of_pde;
-  const double mass = total_mass(subject.scheme.kernel);
-  const double least_N = std::max(gap.smallest / (gap.smallest + gap.largest), 1.0 - mass * gap.largest / delta);
-  return std::min(by_way_of_pde, mass / least_N * (estimate.viscous ? 0.5 * f.u_3 : 1.5 * curvature));
 }
 
 /// The errors of an estimate at one horizon. Finding the sources' quadrature costs more than using it, so they are made
@@ -118,23 +90,15 @@ Worst worst(const Subject& subject, const LemmaEstimate& estimate, std::int64_t 
 
 }  // namespace
 
-std::span<const LemmaEstimate> estimates(int model) {
-  if (model == 1) return model1_estimates;
-  return model2_estimates;
-}
-
 double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x,
                       double delta) {
   return ErrorAt(subject, estimate, delta)(x);
 }
 
-Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep) {
-  const char* const per = estimate.nonlocal ? "h" : "max(h, delta)";
-  Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), "whatever delta",
-                                    fmt::format("{} / {}", estimate.quantity, per), Test::bounds);
-  if (subject.scheme.model == 2 && estimate.nonlocal) {
-    finding.remark = "C h holds whatever delta, so the printed second term is not needed";
-  }
+namespace {
+
+void measure_whatever_delta(Finding& finding, const Subject& subject, const LemmaEstimate& estimate,
+                            const Sweep& sweep) {
   const FieldBounds fields = field_bounds(*subject.scene, subject.t());
   for (const std::int64_t N : sweep.N) {
     Point point{.N = N};
@@ -144,66 +108,82 @@ Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& 
       gap = {std::max(gap.largest, one.largest), std::min(gap.smallest, one.smallest)};
     }
     for (const double delta : sweep.deltas(N, subject.scene->period())) {
-      const double bound = constant(subject, estimate, fields, gap, delta);
+      const double bound =
+          estimate.constant({fields, subject.scheme.kernel, subject.scheme.nonlocal_divergence, gap, delta});
       const double ratio = worst(subject, estimate, N, delta).error / variable(estimate, gap.largest, delta);
       if (!std::isnan(point.h) && !worse(ratio / bound, point.value / point.upper)) continue;
       point = {N, gap.largest, delta, gap.largest, ratio, point.lower, bound};
     }
     finding.points.push_back(point);
   }
-  judge(finding);
-  return finding;
 }
 
-Finding consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path) {
-  Finding finding = subject.finding(std::string(estimate.statement), claim(subject, estimate), path.name,
-                                    std::string(estimate.quantity), path.order ? Test::order : Test::rate);
-  finding.theory_order = path.order.value_or(1.0);
-  const bool settles = finding.theory_order == 0.0, in_h = estimate.nonlocal || settles;
-  finding.variable = in_h ? "h" : "max(h,delta)";
+/// What an estimate is measured by: its statement and quantity.
+Check check_of(const Subject& subject, const LemmaEstimate& estimate, const std::string& claim,
+               const Coordinate& condition, Test test) {
+  return subject.check(std::string(estimate.statement), claim, {condition}, std::string(estimate.quantity), test);
+}
+
+}  // namespace
+
+Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep) {
+  Check check = check_of(subject, estimate, claim(estimate), {"delta", "whatever delta"}, Test::bounds);
+  check.quantity += estimate.nonlocal ? " / h" : " / max(h, delta)";
+  if (!estimate.second_term.empty()) {
+    check.remark = "C h holds whatever delta, so the printed second term is not needed";
+  }
+  return {check, [=](Finding& finding) { measure_whatever_delta(finding, subject, estimate, sweep); }};
+}
+
+Measurement consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path) {
+  Check check =
+      check_of(subject, estimate, claim(estimate), {"path", path.name}, path.order ? Test::order : Test::rate);
+  check.coordinates.push_back(unspoken({"delta", path.delta.text()}));
+  check.theory_order = path.order.value_or(1.0);
+  const bool settles = check.theory_order == 0.0, in_h = estimate.nonlocal || settles;
+  check.variable = in_h ? "h" : "max(h,delta)";
   if (settles) {
-    finding.claim = "does not vanish as h -> 0 at a fixed delta";
-    finding.promised = Verdict::stagnates;
+    check.claim = "does not vanish as h -> 0 at a fixed delta";
+    check.promised = Verdict::stagnates;
   }
-  finding.expected = path.expect.value_or(finding.promised);
-  for (const std::int64_t N : path.N) {
-    const double count = static_cast<double>(N), delta = path.delta({subject.scene->period() / count, count});
-    const Worst at = worst(subject, estimate, N, delta);
-    finding.points.push_back({N, at.h, delta, in_h ? at.h : std::max(at.h, delta), at.error});
-  }
-  judge(finding);
-  return finding;
+  check.expected = path.expect.value_or(check.promised);
+  return {check, [=](Finding& finding) {
+            for (const std::int64_t N : path.N) {
+              const double count = static_cast<double>(N), delta = path.delta({subject.scene->period() / count, count});
+              const Worst at = worst(subject, estimate, N, delta);
+              finding.points.push_back({N, at.h, delta, in_h ? at.h : std::max(at.h, delta), at.error});
+            }
+          }};
 }
 
-Finding order_below_spacing(const Subject& subject, const LemmaEstimate& estimate, const std::vector<std::int64_t>& N,
-                            double ratio) {
+Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& estimate,
+                                const std::vector<std::int64_t>& N, double ratio) {
   const bool smooth = subject.arrangement != Arrangement::jittered;
-  Finding finding = subject.finding(std::string(estimate.statement), "order in h where delta << h",
-                                    fmt::format("delta = {:g}h", ratio), std::string(estimate.quantity),
-                                    smooth ? Test::order : Test::rate);
-  finding.theory_order = smooth ? 2.0 : 1.0;
-  finding.remark = smooth ? "gaps differ by O(h^2): the nearest neighbors give central differences, O(h^2), and the "
-                            "nonlocal operator is within O(delta^2) of their limit"
-                          : "gaps differ by O(h): so do the difference quotients of the nearest neighbors from their "
-                            "limit";
-  for (const std::int64_t count : N) {
-    const double delta = ratio * subject.scene->period() / static_cast<double>(count);
-    const Worst at = worst(subject, estimate, count, delta);
-    finding.points.push_back({count, at.h, delta, at.h, at.error});
-  }
-  judge(finding);
-  return finding;
+  Check check =
+      check_of(subject, estimate, "order in h where delta << h", at_ratio(ratio), smooth ? Test::order : Test::rate);
+  check.theory_order = smooth ? 2.0 : 1.0;
+  check.remark = smooth ? "gaps differ by O(h^2): the nearest neighbors give central differences, O(h^2), and the "
+                          "nonlocal operator is within O(delta^2) of their limit"
+                        : "gaps differ by O(h): so do the difference quotients of the nearest neighbors from their "
+                          "limit";
+  return {check, [=](Finding& finding) {
+            for (const std::int64_t count : N) {
+              const double delta = ratio * subject.scene->period() / static_cast<double>(count);
+              const Worst at = worst(subject, estimate, count, delta);
+              finding.points.push_back({count, at.h, delta, at.h, at.error});
+            }
+          }};
 }
 
-Finding growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
-                             const std::vector<double>& ratios) {
-  const char* const term = estimate.viscous ? "h^3/delta^2" : "h^2/delta";
-  Finding finding = subject.finding(std::string(estimate.statement), fmt::format("grows like {} as delta -> 0", term),
-                                    "delta -> 0 at fixed h", std::string(estimate.quantity), Test::order);
-  finding.variable = "delta";
-  finding.promised = Verdict::diverges;
-  finding.expected = Verdict::stagnates;
-  finding.remark = fmt::format(
+Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
+                                 const std::vector<double>& ratios) {
+  const std::string_view term = estimate.second_term;
+  Check check = check_of(subject, estimate, fmt::format("grows like {} as delta -> 0", term),
+                         {"delta", "delta -> 0 at fixed h"}, Test::order);
+  check.variable = "delta";
+  check.promised = Verdict::diverges;
+  check.expected = Verdict::stagnates;
+  check.remark = fmt::format(
       "not sharp: scheme and nonlocal operator are both within O(max(h, delta)) of the PDE's, so the error is O(h) "
       "where "
       "delta < h and {} is not attained",
@@ -211,13 +191,13 @@ Finding growth_below_spacing(const Subject& subject, const LemmaEstimate& estima
   std::vector<double> below(ratios);
   std::erase_if(below, [](double ratio) { return ratio > 0.3; });
   std::sort(below.rbegin(), below.rend());
-  for (const double ratio : below) {
-    const double delta = ratio * subject.scene->period() / static_cast<double>(N);
-    const Worst at = worst(subject, estimate, N, delta);
-    finding.points.push_back({N, at.h, delta, delta, at.error});
-  }
-  judge(finding);
-  return finding;
+  return {check, [=](Finding& finding) {
+            for (const double ratio : below) {
+              const double delta = ratio * subject.scene->period() / static_cast<double>(N);
+              const Worst at = worst(subject, estimate, N, delta);
+              finding.points.push_back({N, at.h, delta, delta, at.error});
+            }
+          }};
 }
 
 }  // namespace acstudy

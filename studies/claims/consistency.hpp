@@ -3,22 +3,11 @@
 /// @file
 /// Lemmas 2.3, 2.5, 3.2 and 3.4: how far an operator is from its limits. No time stepping.
 
-#include <span>
-
+#include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
-
-/// One estimate of a lemma.
-struct LemmaEstimate {
-  std::string_view statement, quantity;
-  bool viscous;   ///< of D in Model II; else of all the rest
-  bool nonlocal;  ///< against the nonlocal model: vanishes with h; else against the PDE: with max(h, delta)
-};
-
-/// The estimates that lemmas give for a model.
-std::span<const LemmaEstimate> estimates(int model);
 
 /// What is left of the estimate at particles x: max over j of |operator - its limit|; of reach_j D_j itself for the
 /// viscous term against the PDE, whose limit is zero. A and D are told apart by mu, in which the operator is affine.
@@ -28,20 +17,20 @@ double estimate_error(const Subject& subject, const LemmaEstimate& estimate, con
 /// Uniformity in delta: whatever the horizon of the sweep, the error divided by h (by max(h, delta) against the PDE)
 /// is at most a constant that is derived from the fields of the scene, not fitted; see docs/equations.md. A point per
 /// N, at the horizon where the error comes closest to its bound.
-Finding consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep);
+Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep);
 
 /// Errors along a path: they vanish with at least order 1, or with path.order if that is given.
 /// @pre path.nonlocal_source == estimate.nonlocal
-Finding consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path);
+Measurement consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path);
 
 /// Sharpness of Lemma 3.2 where delta = ratio h, ratio < 1/2: order 2 in h; on jittered particles
 /// at least 1.
-Finding order_below_spacing(const Subject& subject, const LemmaEstimate& estimate, const std::vector<std::int64_t>& N,
-                            double ratio);
+Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& estimate,
+                                const std::vector<std::int64_t>& N, double ratio);
 
-/// Sharpness of Lemma 3.2 as delta goes to zero at fixed h: whether errors grow as the printed h^2/delta and
-/// h^3/delta^2 would have it. They do not.
-Finding growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
-                             const std::vector<double>& ratios);
+/// Sharpness of Lemma 3.2 as delta goes to zero at fixed h: whether errors grow as its second term would have
+/// it. They do not.  @pre the estimate has one
+Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
+                                 const std::vector<double>& ratios);
 
 }  // namespace acstudy

@@ -72,22 +72,24 @@ struct Side {
   double end(std::ptrdiff_t k) const { return k == last ? 1.0 : std::min(side * (x[side * k] - x[0]) / delta, 1.0); }
 };
 
-/// The weights of Model I, or 2 delta |W_{j,k}| of Model II, nearest neighbor first.
+/// The weights W_k of Model I, or the masses 2 delta |W_{j,k}| of Model II, nearest neighbor first.
 template <Kernel K>
-std::vector<double> weights(int model, const K& kernel, const Side& at, CellForm form) {
+std::vector<double> weights(CellWeights of, const K& kernel, const Side& at, CellForm form) {
   std::vector<double> W(static_cast<std::size_t>(at.last));
   if (form == CellForm::difference) {
     const auto closed = [&](double z) {
-      if constexpr (IntegrableKernel<K>) return model == 1 ? kernel.first_moment(z) : kernel.mass(z);
+      if constexpr (IntegrableKernel<K>) {
+        if (of == CellWeights::masses) return kernel.mass(z);
+      }
       return kernel.first_moment(z);
     };
     double inner = 0.0;
     for (std::ptrdiff_t k = 1; k <= at.last; ++k) {
       const double outer = closed(at.end(k)), d = at.side * (at.x[at.side * k] - at.x[0]);
-      W[static_cast<std::size_t>(k - 1)] = model == 1 ? (outer - inner) / d : outer - inner;
+      W[static_cast<std::size_t>(k - 1)] = of == CellWeights::masses ? outer - inner : (outer - inner) / d;
       inner = outer;
     }
-  } else if (model == 1) {
+  } else if (of == CellWeights::moments_over_distance) {
     at.side < 0 ? upwind_weights<+1>(kernel, at.x, at.delta, W) : upwind_weights<-1>(kernel, at.x, at.delta, W);
   } else if constexpr (IntegrableKernel<K>) {
     at.side < 0 ? set_masses<-1>(kernel, at.x, at.delta, at.last, W.data() + at.last - 1)
@@ -97,23 +99,25 @@ std::vector<double> weights(int model, const K& kernel, const Side& at, CellForm
   return W;
 }
 
-/// int of eta, times s for Model I, from 0 to z.
+/// int of eta, or of s eta, from 0 to z.
 template <Kernel K>
-Exact exact_integral(int model, const K& kernel, const Exact& z) {
-  if constexpr (IntegrableKernel<K>) return model == 1 ? exact_moment(kernel, z) : exact_mass(kernel, z);
+Exact exact_integral(CellWeights of, const K& kernel, const Exact& z) {
+  if constexpr (IntegrableKernel<K>) {
+    if (of == CellWeights::masses) return exact_mass(kernel, z);
+  }
   return exact_moment(kernel, z);
 }
 
 /// The largest relative error of the weights on one side: of the 64 nearest, the last, and every sixteenth between.
 template <Kernel K>
-double error_of_weights(int model, const K& kernel, const Side& at, CellForm form) {
-  const std::vector<double> W = weights(model, kernel, at, form);
+double error_of_weights(CellWeights of, const K& kernel, const Side& at, CellForm form) {
+  const std::vector<double> W = weights(of, kernel, at, form);
   double largest = 0.0;
   for (std::ptrdiff_t k = 1; k <= at.last; ++k) {
     if (k > 64 && k % 16 != 0 && k != at.last) continue;
     const Exact inner = k == 1 ? Exact(0) : at.exact_end(k - 1);
-    Exact exact = exact_integral(model, kernel, at.exact_end(k)) - exact_integral(model, kernel, inner);
-    if (model == 1) exact /= at.distance(k);
+    Exact exact = exact_integral(of, kernel, at.exact_end(k)) - exact_integral(of, kernel, inner);
+    if (of == CellWeights::moments_over_distance) exact /= at.distance(k);
     const double error = relative_error(W[static_cast<std::size_t>(k - 1)], exact);
     if (worse(error, largest)) largest = error;
   }
@@ -156,71 +160,59 @@ void measure(Finding& finding, const std::vector<double>& ratios, Error&& error)
     }
     finding.points.push_back(point);
   }
-  if (!ratios.empty()) judge(finding);
 }
 
-Finding finding_of(const WeightsChoice& choice, const std::string& statement, const std::string& claim,
-                   const std::string& what) {
+Check check_of(const WeightsChoice& choice, const std::string& statement, const std::string& claim,
+               const std::string& what) {
   return {.statement = statement,
           .claim = claim,
           .subject = "kernel " + choice.kernel.label(),
-          .check = what + (choice.model == 1 ? " of Model I" : " of Model II"),
+          .coordinates = {{"of", what + fmt::format(" of {}", choice.model->name)}},
           .quantity = "max |value / exact - 1|",
-          .test = Test::bounds,
-          .variable = "delta/h",
-          .promised = Verdict::holds,
-          .expected = Verdict::holds};
+          .variable = "delta/h"};
 }
 
 }  // namespace
 
-Finding round_off_of_weights(const WeightsChoice& choice, const std::vector<double>& ratios, CellForm form) {
+Measurement round_off_of_weights(const WeightsChoice& choice, const std::vector<double>& ratios, CellForm form) {
   const bool factored = form == CellForm::factored;
-  Finding finding = finding_of(choice, factored ? "round-off" : "round-off, not factored",
-                               factored ? "weights from cell integrals in factored form are exact to 1e-13"
-                                        : "weights from differences of closed forms are exact to 1e-13",
-                               "weights");
-  if (!factored) {
-    finding.expected = Verdict::violated;
-    finding.remark = "negative control: a narrow cell is the difference of two values that agree in most digits";
-  }
-  with_kernel(choice.kernel, [&](const auto& kernel) {
-    measure(finding, ratios, [&](const Side& left, const Side& right) {
-      const double on_left = error_of_weights(choice.model, kernel, left, form);
-      const double on_right = error_of_weights(choice.model, kernel, right, form);
-      return worse(on_right, on_left) ? on_right : on_left;
-    });
-  });
-  return finding;
+  Check check = check_of(choice, factored ? "round-off" : "round-off, not factored",
+                         factored ? "weights from cell integrals in factored form are exact to 1e-13"
+                                  : "weights from differences of closed forms are exact to 1e-13",
+                         "weights");
+  if (!factored) check.be_control("a narrow cell is the difference of two values that agree in most digits");
+  return {check, [=](Finding& finding) {
+            with_kernel(choice.kernel, [&](const auto& kernel) {
+              measure(finding, ratios, [&](const Side& left, const Side& right) {
+                const double on_left = error_of_weights(choice.model->cell_weights, kernel, left, form);
+                const double on_right = error_of_weights(choice.model->cell_weights, kernel, right, form);
+                return worse(on_right, on_left) ? on_right : on_left;
+              });
+            });
+          }};
 }
 
-Finding round_off_of_renormalization(const WeightsChoice& choice, const std::vector<double>& ratios) {
-  Finding finding = finding_of(choice, "round-off", "N_j is exact to 1e-13", "N_j");
-  finding.remark = "plain sums: all terms are positive, and 2e4 of them round off less than the bound by far";
-  with_kernel(choice.kernel, [&]<class K>(const K& kernel) {
-    if constexpr (IntegrableKernel<K>) {
-      measure(finding, ratios, [&](const Side& left, const Side& right) {
-        std::vector<double> m(static_cast<std::size_t>(left.last + right.last));
-        const double moment = set_masses<-1>(kernel, left.x, left.delta, left.last, m.data() + left.last - 1) +
-                              set_masses<+1>(kernel, right.x, right.delta, right.last, m.data() + left.last);
-        return relative_error(moment, exact_moment_of_side(kernel, left) + exact_moment_of_side(kernel, right));
-      });
-    }
-  });
-  return finding;
+Measurement round_off_of_renormalization(const WeightsChoice& choice, const std::vector<double>& ratios) {
+  Check check = check_of(choice, "round-off", "N_j is exact to 1e-13", "N_j");
+  check.remark = "plain sums: all terms are positive, and 2e4 of them round off less than the bound by far";
+  return {
+      check, [=](Finding& finding) {
+        with_kernel(choice.kernel, [&]<class K>(const K& kernel) {
+          if constexpr (IntegrableKernel<K>) {
+            measure(finding, ratios, [&](const Side& left, const Side& right) {
+              std::vector<double> m(static_cast<std::size_t>(left.last + right.last));
+              const double moment = set_masses<-1>(kernel, left.x, left.delta, left.last, m.data() + left.last - 1) +
+                                    set_masses<+1>(kernel, right.x, right.delta, right.last, m.data() + left.last);
+              return relative_error(moment, exact_moment_of_side(kernel, left) + exact_moment_of_side(kernel, right));
+            });
+          }
+        });
+      }};
 }
 
-Finding round_off_of_gaps(const Scene& scene, std::int64_t N, const std::vector<double>& times) {
-  Finding finding{.statement = "round-off",
-                  .claim = "gaps keep the digits that positions carry of them",
-                  .subject = "flow of the scene",
-                  .check = fmt::format("gaps, N = {}", N),
-                  .quantity = "max |value / exact - 1|",
-                  .test = Test::bounds,
-                  .variable = "T",
-                  .promised = Verdict::holds,
-                  .expected = Verdict::holds};
-  if (times.empty()) return finding;
+namespace {
+
+void measure_gaps(Finding& finding, const Scene& scene, std::int64_t N, const std::vector<double>& times) {
   const auto count = static_cast<std::size_t>(N);
   const Exact pi = boost::math::constants::pi<Exact>();
   std::vector<Exact> sine(count + 1), cosine(count + 1);
@@ -249,8 +241,19 @@ Finding round_off_of_gaps(const Scene& scene, std::int64_t N, const std::vector<
         "digits are lost: no scheme gets them back",
         t, gap.smallest, std::log10(point.value / epsilon));
   }
-  judge(finding);
-  return finding;
+}
+
+}  // namespace
+
+Measurement round_off_of_gaps(const std::shared_ptr<const Scene>& scene, std::int64_t N,
+                              const std::vector<double>& times) {
+  return {{.statement = "round-off",
+           .claim = "gaps keep the digits that positions carry of them",
+           .subject = "flow of the scene",
+           .coordinates = {{"of", "gaps"}, {"N", static_cast<double>(N), fmt::format("N = {}", N)}},
+           .quantity = "max |value / exact - 1|",
+           .variable = "T"},
+          [=](Finding& finding) { measure_gaps(finding, *scene, N, times); }};
 }
 
 }  // namespace acstudy

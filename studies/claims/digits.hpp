@@ -1,20 +1,20 @@
 #pragma once
 
 /// @file
-/// What round-off makes of weights, renormalizations and gaps, against arithmetic of 50 digits. Without any ratios or
-/// times nothing is computed: a finding without points, which has a label.
+/// What round-off makes of weights, renormalizations and gaps, against arithmetic of 50 digits.
 
 #include <cstdint>
 #include <vector>
 
+#include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
-#include "studies/models/kernel_choice.hpp"
+#include "studies/models/model_card.hpp"
 
 namespace acstudy {
 
 /// The weights that are examined: a model's with a kernel.
 struct WeightsChoice {
-  int model;
+  const ModelCard* model;
   KernelChoice kernel;
 };
 
@@ -30,10 +30,10 @@ inline constexpr double digits_bound = 1e-13;
 /// The largest relative error of W over delta/h. Positions are dyadic, so that gaps are exact: all equal, or between
 /// h/4 and 7h/4 with every seventh one 2^-20 h.
 /// @param ratios  delta/h, 0 < delta/h <= 1e5; up to 16 particles are examined at each, one from 1000 on
-Finding round_off_of_weights(const WeightsChoice& choice, const std::vector<double>& ratios, CellForm form);
+Measurement round_off_of_weights(const WeightsChoice& choice, const std::vector<double>& ratios, CellForm form);
 
-/// The same of N_j.  @pre choice.model == 2
-Finding round_off_of_renormalization(const WeightsChoice& choice, const std::vector<double>& ratios);
+/// The same of N_j.  @pre the model is renormalized
+Measurement round_off_of_renormalization(const WeightsChoice& choice, const std::vector<double>& ratios);
 
 /// The largest relative error of the gaps that the flow of b = sin(x) gives N particles from the uniform start. With
 /// p = e^t sin(x/2), q = cos(x/2) at the start x, the exact ones follow from
@@ -42,6 +42,7 @@ Finding round_off_of_renormalization(const WeightsChoice& choice, const std::vec
 ///
 /// Positions carry the digits of a gap only so far: the bound is some ulps of the period relative to the smallest gap.
 /// @pre b of the scene is sin(x) and its period 2 pi
-Finding round_off_of_gaps(const Scene& scene, std::int64_t N, const std::vector<double>& times);
+Measurement round_off_of_gaps(const std::shared_ptr<const Scene>& scene, std::int64_t N,
+                              const std::vector<double>& times);
 
 }  // namespace acstudy

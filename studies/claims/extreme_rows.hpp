@@ -15,7 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/time/integrators.hpp"
+#include "solver/time/steps.hpp"
+#include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/claims/extremes.hpp"
 #include "studies/running/run_case.hpp"
@@ -24,22 +25,20 @@ namespace acstudy {
 
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// The list of measurements. What goes wrong numerically while one is taken becomes its finding's failure.
+/// The list of measurements.
 class ExtremeRows {
  public:
-  /// @param finding  without points
-  /// @param measure  gives it its points
-  /// @throws std::logic_error if another one has the same label
-  void add(Finding finding, std::function<void(Finding&)> measure);
+  /// @param measure  gives a finding its points
+  void add(Check check, std::function<void(Finding&)> measure);
   /// The same as a negative control; `why` it must fail. One that is there already is not added again: the schemes of
   /// both divergences have the same mistakes.
-  void add_control(Finding finding, const std::string& why, std::function<void(Finding&)> measure,
+  void add_control(Check check, const std::string& why, std::function<void(Finding&)> measure,
                    Verdict expected = Verdict::violated);
 
   std::vector<Measurement> take() { return std::move(measurements_); }
 
  private:
-  std::set<std::string> labels_, controls_;
+  std::set<std::string> controls_;
   std::vector<Measurement> measurements_;
 };
 
@@ -56,24 +55,28 @@ std::shared_ptr<const Scene> scene_with(const std::string& c, const std::optiona
                                         const std::string& u = "sin(2*pi*(x - t))");
 std::shared_ptr<const Scene> scene_named(std::string_view name);
 
-/// A scheme on a scene, with the viscosity bound of the scene if it is Model II.
+/// "c = sin(2*pi*x)"
+inline Coordinate velocity_is(const std::string& c) { return {"c", c, "c = " + c}; }
+/// "scene lagrangian"
+inline Coordinate on_scene(const std::string& name) { return {"scene", name, "scene " + name}; }
+
+/// A scheme on a scene, with the viscosity bound of the scene if its model is viscous.
 Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene>& scene,
                    Arrangement arrangement = Arrangement::uniform);
-/// The same with a mistake of solver/controls, made with the local divergence: `model1` or `model2` by the model.
-Subject mistaken(Subject subject, std::string_view model1, std::string_view model2);
+/// The same with a control's mistake, made with the local divergence; nothing where a card names no such mistake.
+std::optional<Subject> mistaken(Subject subject, std::string_view control);
 
 /// The schemes, each once, where particles stand still and the divergence is of no matter.
 std::vector<SchemeChoice> standing_schemes(const Extremes& extremes);
 
 /// Round-off of a sum over the neighbors of a particle whose terms sum to one: an ulp per neighbor and eight more.
 inline double row_round_off(const Particles& particles) { return (2.0 * particles.windows.widest + 8.0) * epsilon; }
-/// Round-off of a forward Euler step within CFL 1, relative to max |u|. In Model II the terms of D sum to two, one with
-/// u_j and one with its neighbors, and those of A to no more.
+/// Round-off of a forward Euler step within CFL 1, relative to max |u|.
 inline double step_round_off(const Subject& subject, const Particles& particles) {
-  return (subject.scheme.model == 2 ? 4.0 : 1.0) * row_round_off(particles);
+  return subject.scheme.model->row_terms * row_round_off(particles);
 }
 
-/// The largest step of the scheme itself, also for one with a mistake: c_hat dt sum W_k = 1 or its twin in Model II.
+/// The largest step of the scheme itself, also for one with a mistake: `StepLemma::row_by_row`.
 double step_at_cfl_one(Subject subject, const std::vector<double>& x, double delta);
 
 /// Particles at a final time.

@@ -72,8 +72,8 @@ void add_rows_of_amplitude(ExtremeRows& rows, const Extremes& extremes) {
     const Subject subject = subject_on(scheme, scaled(1.0));
     for (const double ratio : {2.5, 1e-12}) {
       const auto named = [&](const std::string& claim, const std::string& factors) {
-        return subject.finding(amplitude, claim, fmt::format("delta = {:g}h, {}", ratio, factors),
-                               "max |u/factor - u of factor 1|, change of the errors", Test::bounds);
+        return subject.check(amplitude, claim, {at_ratio(ratio), {"factors", factors}},
+                             "max |u/factor - u of factor 1|, change of the errors");
       };
       const std::string bitwise = "u times 2^996 and 2^-996: solution and errors are the same, bit by bit";
       const std::string rounded = "u times 1e300 and 1e-300: solution and relative errors change by round-off";

@@ -68,19 +68,20 @@ Point drift_of(const MassRun& run, std::int64_t N) {
 void add_conserved(ExtremeRows& rows, const SchemeChoice& scheme) {
   struct Velocity {
     std::string c, claim;
-    bool model2_alone;
+    bool any_sign;
   };
   const std::vector<Velocity> velocities = {
       {"1", "standing, equal gaps, c constant: conserved to round-off", false},
       {"1 + sin(2*pi*x)/2", "standing, equal gaps, c > 0 varying: conserved to round-off", false},
-      {"sin(2*pi*x)", "standing, equal gaps, c of both signs: Model II conserves to round-off", true}};
+      {"sin(2*pi*x)",
+       fmt::format("standing, equal gaps, c of both signs: {} conserves to round-off", scheme.model->name), true}};
   const auto measure = [](Finding& row, const Subject& subject) {
     for (const double ratio : {0.5, 3.5}) row.points.push_back(drift_of({subject, 0.25, ratio, {}}, 80));
   };
   for (const Velocity& velocity : velocities) {
-    if (velocity.model2_alone && scheme.model == 1) continue;
+    if (velocity.any_sign && !scheme.model->conserves_any_sign) continue;
     const auto named = [&](const Subject& subject) {
-      return subject.finding(statement, velocity.claim, "c = " + velocity.c + ", to round-off", quantity, Test::bounds);
+      return subject.check(statement, velocity.claim, {velocity_is(velocity.c), {"bound", "to round-off"}}, quantity);
     };
     const Subject subject = subject_on(scheme, scene_with(velocity.c));
     const Subject jittered = subject_on(scheme, scene_with(velocity.c), Arrangement::jittered);
@@ -99,23 +100,21 @@ void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme) {
       row.points.back().upper = std::numeric_limits<double>::infinity();
     }
   };
-  const auto named = [](const MassRun& run, const std::string& check) {
-    Finding finding =
-        run.subject.finding(statement, "elsewhere mass is not conserved, and its drift vanishes with order 1 at least",
-                            run.ratio ? fmt::format("{}, delta = {:g}h", check, *run.ratio)
-                                      : fmt::format("{}, delta = {:g}", check, *run.horizon),
-                            quantity, Test::rate);
-    finding.theory_order = 1.0;
-    return finding;
+  const auto named = [](const MassRun& run, const Coordinate& fields) {
+    Check check =
+        run.subject.check(statement, "elsewhere mass is not conserved, and its drift vanishes with order 1 at least",
+                          {fields, run.ratio ? at_ratio(*run.ratio) : at_horizon(*run.horizon)}, quantity, Test::rate);
+    check.theory_order = 1.0;
+    return check;
   };
-  const auto add = [&](const Subject& subject, double T, const std::string& check) {
+  const auto add = [&](const Subject& subject, double T, const Coordinate& fields) {
     for (const double ratio : {0.5, 3.5}) {
       const MassRun run{subject, T, ratio, {}};
-      rows.add(named(run, check), [=](Finding& row) { measure(row, run); });
+      rows.add(named(run, fields), [=](Finding& row) { measure(row, run); });
     }
   };
-  const auto add_control = [&](const MassRun& run, const std::string& check, const std::string& why) {
-    Finding control = named(run, check);
+  const auto add_control = [&](const MassRun& run, const Coordinate& fields, const std::string& why) {
+    Check control = named(run, fields);
     control.also_expected = {Verdict::diverges};  // it settles, be it from below
     rows.add_control(
         control, why, [=](Finding& row) { measure(row, run); }, Verdict::stagnates);
@@ -124,21 +123,22 @@ void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme) {
   if (!scheme.nonlocal_divergence) {
     // exp(2 pi T), by which u grows where c changes sign, is 2.2.
     const Subject both_signs = subject_on(scheme, scene_with("sin(2*pi*x)"));
-    if (scheme.model == 1) {
-      add(both_signs, 0.125, "c = sin(2*pi*x)");
-      add_control({both_signs, 0.125, {}, 0.1}, "c = sin(2*pi*x)",
-                  "the nonlocal Model I does not conserve at zeros of c, however small h is");
+    if (!scheme.model->conserves_any_sign) {
+      add(both_signs, 0.125, velocity_is("sin(2*pi*x)"));
+      add_control(
+          {both_signs, 0.125, {}, 0.1}, velocity_is("sin(2*pi*x)"),
+          fmt::format("the nonlocal {} does not conserve at zeros of c, however small h is", scheme.model->name));
     }
     for (const std::string c : {"1", "1 + sin(2*pi*x)/2"}) {
       Subject jittered = subject_on(scheme, scene_with(c), Arrangement::jittered);
       jittered.seeds = 96;
-      add(jittered, 0.25, "c = " + c);
+      add(jittered, 0.25, velocity_is(c));
     }
   }
   const Subject moving = subject_on(scheme, scene_named("lee-du-2019"));
-  add(moving, moving.scene->T(), "scene lee-du-2019");
-  add_control({mistaken(moving, "no divergence term", "no divergence term"), moving.scene->T(), 3.5, {}},
-              "scene lee-du-2019", "without b' u there is more mass where the volumes grow");
+  add(moving, moving.scene->T(), on_scene("lee-du-2019"));
+  add_control({*mistaken(moving, "no divergence term"), moving.scene->T(), 3.5, {}}, on_scene("lee-du-2019"),
+              "without b' u there is more mass where the volumes grow");
 }
 
 }  // namespace

@@ -53,15 +53,12 @@ void add_refusals(ExtremeRows& rows) {
           {.N = static_cast<std::int64_t>(N), .value = value, .lower = 1.0, .upper = 1.0, .label = placement.name});
     }
   };
-  const auto named = [](const std::string& check) {
-    return Finding{.statement = coincident,
-                   .claim = "refused, and the message says why; so are particles that have crossed",
-                   .subject = "particles",
-                   .check = check,
-                   .quantity = "1 if refused",
-                   .test = Test::bounds,
-                   .promised = Verdict::holds,
-                   .expected = Verdict::holds};
+  const auto named = [](const std::string& positions) {
+    return Check{.statement = coincident,
+                 .claim = "refused, and the message says why; so are particles that have crossed",
+                 .subject = "particles",
+                 .coordinates = {{"positions", positions}},
+                 .quantity = "1 if refused"};
   };
   rows.add(named("coincident, crossed, not a number"), [=](Finding& row) { place(row, refused_placements()); });
   rows.add_control(named("a gap of one ulp"), "these particles are apart",
@@ -100,22 +97,23 @@ void add_nearest(ExtremeRows& rows, const SchemeChoice& scheme) {
     }
     return worst;
   };
+  const auto but_for_one_gap = [](Check check) {
+    check.coordinates.front() = {"arrangement", "uniform but for one gap of an ulp"};
+    return check;
+  };
   const auto moment_of = [&](const Subject& one) {
-    Finding finding = one.finding(coincident, "a gap of one ulp: weights are finite, their first moment one", {},
-                                  "max |first moment - 1|", Test::bounds);
-    finding.check = "uniform but for one gap of an ulp, first moment";
-    return finding;
+    return but_for_one_gap(one.check(coincident, "a gap of one ulp: weights are finite, their first moment one",
+                                     {{"of", "first moment"}}, "max |first moment - 1|"));
   };
   rows.add(moment_of(subject), [=](Finding& row) { at_each(row, subject, first_moment); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
-  rows.add_control(moment_of(wrong), "a part of the kernel is missing",
-                   [=](Finding& row) { at_each(row, wrong, first_moment); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(moment_of(*wrong), "a part of the kernel is missing",
+                     [=](Finding& row) { at_each(row, *wrong, first_moment); });
+  }
 
   const auto norm_at = [&](double cfl) {
-    Finding finding = subject.finding(coincident, "a gap of one ulp, c constant: a step at CFL 1 has the max norm 1",
-                                      {}, "max norm of I + dt R", Test::bounds);
-    finding.check = fmt::format("uniform but for one gap of an ulp, CFL {:g}", cfl);
-    return finding;
+    return but_for_one_gap(subject.check(coincident, "a gap of one ulp, c constant: a step at CFL 1 has the max norm 1",
+                                         {at_cfl(cfl)}, "max norm of I + dt R"));
   };
   const auto step = [=](Finding& row, double cfl) {
     at_each(row, subject, [&](PlacedScheme& placed) {

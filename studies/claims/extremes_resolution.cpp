@@ -5,15 +5,16 @@
 
 #include "studies/claims/extreme_rows.hpp"
 #include "studies/claims/identities.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/claims/stability.hpp"
 
 namespace acstudy {
 
 namespace {
 
-/// A finding of another kind of study as a row of the table.
-void adopt(Finding& row, const Finding& measured) {
+/// A measurement of another kind of study as a row of the table.
+void adopt(Finding& row, const Measurement& measurement) {
+  const Finding measured = measurement.take();
+  row.failure = measured.failure;
   row.points.insert(row.points.end(), measured.points.begin(), measured.points.end());
   row.variable = measured.variable;
 }
@@ -28,13 +29,12 @@ std::string numbers(std::int64_t most) { return fmt::format("N = 3 to {}", most)
 void add_few_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject subject = subject_on(scheme, scene_with("1"));
   const Sweep sweep{{std::begin(few), std::end(few)}, {0.3, 1.0, 1.3}, {largest_horizon(*subject.scene)}};
-  const auto named = [&](const std::string& check) {
-    return subject.finding(numbers(most), "N = 3, 4, 5, 7, c constant: a step at CFL 1 has the max norm 1", check,
-                           "max norm of I + dt R", Test::bounds);
+  const auto named = [&](double cfl) {
+    return subject.check(numbers(most), "N = 3, 4, 5, 7, c constant: a step at CFL 1 has the max norm 1",
+                         {{"N", "3 to 7", "N = 3 to 7"}, at_cfl(cfl)}, "max norm of I + dt R");
   };
-  rows.add(named("N = 3 to 7, CFL 1"),
-           [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected)); });
-  rows.add_control(named("N = 3 to 7, CFL 1.5"), "beyond the condition",
+  rows.add(named(1.0), [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected)); });
+  rows.add_control(named(1.5), "beyond the condition",
                    [=](Finding& row) { adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected, 1.5)); });
 }
 
@@ -67,14 +67,14 @@ void run_few(Finding& row, const Subject& subject, double cfl) {
 void add_few_moving_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject carried = subject_on(scheme, scene_with("1", "1/2"));
   const Subject paper = subject_on(scheme, scene_named("lee-du-2019"));
-  const auto named = [most](const Subject& subject, const std::string& check) {
-    return subject.finding(numbers(most),
-                           "N = 3, 4, 5, 7, moving: max |u| grows by at most exp(T (||c_hat'|| + ||b'||))", check,
-                           "max |u(T)| / max |u(0)|", Test::bounds);
+  const auto named = [most](const Subject& subject, const std::vector<Coordinate>& conditions) {
+    return subject.check(numbers(most), "N = 3, 4, 5, 7, moving: max |u| grows by at most exp(T (||c_hat'|| + ||b'||))",
+                         conditions, "max |u(T)| / max |u(0)|");
   };
-  rows.add(named(carried, "c = 1, b = 1/2, CFL 1"), [=](Finding& row) { run_few(row, carried, 1.0); });
-  rows.add(named(paper, "scene lee-du-2019"), [=](Finding& row) { run_few(row, paper, 1.0); });
-  rows.add_control(named(carried, "c = 1, b = 1/2, CFL 1.5"), "beyond the condition",
+  const Coordinate half = {"b", "1/2", "b = 1/2"};
+  rows.add(named(carried, {velocity_is("1"), half, at_cfl(1.0)}), [=](Finding& row) { run_few(row, carried, 1.0); });
+  rows.add(named(paper, {on_scene("lee-du-2019")}), [=](Finding& row) { run_few(row, paper, 1.0); });
+  rows.add_control(named(carried, {velocity_is("1"), half, at_cfl(1.5)}), "beyond the condition",
                    [=](Finding& row) { run_few(row, carried, 1.5); });
 }
 
@@ -90,9 +90,8 @@ void take_ten_steps(Finding& row, const Subject& subject, std::int64_t N) {
   const State end = run_freely(subject, {x, u}, delta, T, steps);
   subject.scene->u(x, T, exact);
   for (std::size_t j = 0; j < x.size(); ++j) exact[j] -= end.u[j];
-  // Lemma 2.5; both parts of Lemma 3.4 with F_zz = c u_xx and mu = c; (u_t + u_x) of forward Euler. A weight errs by an
-  // ulp of a position over a gap.
-  const double space = std::max(h, delta) * (subject.scheme.model == 1 ? 0.5 : 1.0) * fields.u_2;
+  // The lemma against the PDE, and (u_t + u_x) of forward Euler. A weight errs by an ulp of a position over a gap.
+  const double space = std::max(h, delta) * subject.scheme.model->pde_constant * fields.u_2;
   const double round_off = 16.0 * epsilon + 4.0 * dt * fields.u_1 * epsilon / h;
   row.points.push_back({.N = N,
                         .h = h,
@@ -105,25 +104,25 @@ void take_ten_steps(Finding& row, const Subject& subject, std::int64_t N) {
 void add_many_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t most) {
   const Subject subject = subject_on(scheme, scene_with("1"));
   const std::int64_t fewer = std::min<std::int64_t>(most, 10'000);
-  const auto norm_of = [&](const std::string& check) {
-    return subject.finding(numbers(most), fmt::format("N = {}, c constant: a step at CFL 1 has the max norm 1", most),
-                           check, "max norm of I + dt R", Test::bounds);
+  const auto norm_of = [&](double cfl) {
+    return subject.check(numbers(most), fmt::format("N = {}, c constant: a step at CFL 1 has the max norm 1", most),
+                         {at_ratio(1.45), at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto norm = [subject](Finding& row, std::int64_t N, double cfl) {
     adopt(row, step_is_bounded(subject, {{N}, {1.45}, {}}, StepCondition::corrected, cfl));
   };
-  rows.add(norm_of("delta = 1.45h, CFL 1"), [=](Finding& row) { norm(row, most, 1.0); });
-  rows.add_control(norm_of("delta = 1.45h, CFL 1.5"), "beyond the condition",
-                   [=](Finding& row) { norm(row, fewer, 1.5); });
+  rows.add(norm_of(1.0), [=](Finding& row) { norm(row, most, 1.0); });
+  rows.add_control(norm_of(1.5), "beyond the condition", [=](Finding& row) { norm(row, fewer, 1.5); });
 
   const auto steps_of = [&](const Subject& one) {
-    return one.finding(numbers(most), fmt::format("N = {}: ten steps are off by at most ten truncation errors", most),
-                       "delta = 1.45h, CFL 1/4", "max |u - exact|", Test::bounds);
+    return one.check(numbers(most), fmt::format("N = {}: ten steps are off by at most ten truncation errors", most),
+                     {at_ratio(1.45), {"cfl", 0.25, "CFL 1/4"}}, "max |u - exact|");
   };
   rows.add(steps_of(subject), [=](Finding& row) { take_ten_steps(row, subject, most); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
-  rows.add_control(steps_of(wrong), "a scheme that is not consistent",
-                   [=](Finding& row) { take_ten_steps(row, wrong, fewer); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(steps_of(*wrong), "a scheme that is not consistent",
+                     [=](Finding& row) { take_ten_steps(row, *wrong, fewer); });
+  }
 }
 
 // ------------------------------------------------------------------------------------------------------------- delta/h
@@ -145,11 +144,10 @@ void compare_rates_below(Finding& row, const Subject& subject, const std::vector
       const std::vector<double> rate = placed.rate(u);
       Point point{.N = 48, .h = gap.largest, .delta = ratio * gap.smallest, .variable = ratio, .value = 0.0};
       for (std::size_t j = 0; j < x.size(); ++j) {
-        const double off = std::abs(rate[j] - expected[j]) / printed_rate(subject, x, u, gap.smallest * 0.9, j).size;
+        const double off = std::abs(rate[j] - expected[j]) / subject.printed_rate(x, u, gap.smallest * 0.9, j).size;
         if (worse(off, point.value)) point.value = off;
       }
-      // In Model II delta is in the weights and in N_j, and cancels but for its round-off.
-      point.upper = subject.scheme.model == 1 ? 0.0 : 2.0 * row_round_off(placed.particles());
+      point.upper = subject.scheme.model->nearest.bit_by_bit ? 0.0 : 2.0 * row_round_off(placed.particles());
       row.points.push_back(point);
     }
   }
@@ -158,40 +156,29 @@ void compare_rates_below(Finding& row, const Subject& subject, const std::vector
 
 void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
   const Subject subject = subject_on(scheme, scene_named("lee-du-2019"), arrangement);
-  const auto same = [&](const std::string& check) {
-    return subject.finding(horizons,
-                           scheme.model == 1 ? "below every gap the rates are the same, bit by bit, whatever delta"
-                                             : "below every gap the rates are the same to round-off, whatever delta",
-                           "rates, " + check, "max |rate - rate at 0.9 h_min| / sum of |terms|", Test::bounds);
+  const Coordinate below = {"delta/h_min", "1e-12 to 1/2", "delta = 1e-12 to 1/2 h_min"},
+                   above = {"delta/h_min", 4.0, "delta = 4 h_min"};
+  const auto same = [&](const Coordinate& horizon) {
+    return subject.check(horizons,
+                         scheme.model->nearest.bit_by_bit
+                             ? "below every gap the rates are the same, bit by bit, whatever delta"
+                             : "below every gap the rates are the same to round-off, whatever delta",
+                         {{"of", "rates"}, horizon}, "max |rate - rate at 0.9 h_min| / sum of |terms|");
   };
-  rows.add(same("delta = 1e-12 to 1/2 h_min"),
-           [=](Finding& row) { compare_rates_below(row, subject, below_every_gap); });
-  rows.add_control(same("delta = 4 h_min"), "farther neighbors count",
+  rows.add(same(below), [=](Finding& row) { compare_rates_below(row, subject, below_every_gap); });
+  rows.add_control(same(above), "farther neighbors count",
                    [=](Finding& row) { compare_rates_below(row, subject, {4.0}); });
 
-  const auto difference = [&](const std::string& check) {
-    return subject.finding(horizons,
-                           scheme.model == 1 ? "below every gap Model I is the upwind difference (Remark 2.1)"
-                                             : "below every gap Model II is the central difference with viscosity",
-                           "matrix, " + check, "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
+  const auto difference = [&](const Coordinate& horizon) {
+    return subject.check(horizons,
+                         fmt::format("below every gap {} is {}", scheme.model->name, scheme.model->nearest.in_words),
+                         {{"of", "matrix"}, horizon}, "max |row - that of the difference| h_min / max|c_hat|");
   };
-  rows.add(difference("delta = 1e-12 to 1/2 h_min"), [=](Finding& row) {
+  rows.add(difference(below), [=](Finding& row) {
     for (const double ratio : below_every_gap) adopt(row, nearest_neighbor_rows(subject, {48}, ratio));
   });
-  rows.add_control(difference("delta = 4 h_min"), "farther neighbors count",
+  rows.add_control(difference(above), "farther neighbors count",
                    [=](Finding& row) { adopt(row, nearest_neighbor_rows(subject, {48}, 4.0)); });
-}
-
-Finding bare_finding(const std::string& statement, const std::string& claim, const std::string& check,
-                     const std::string& quantity) {
-  return {.statement = statement,
-          .claim = claim,
-          .subject = "particles",
-          .check = check,
-          .quantity = quantity,
-          .test = Test::bounds,
-          .promised = Verdict::holds,
-          .expected = Verdict::holds};
 }
 
 void add_refused_horizons(ExtremeRows& rows) {
@@ -202,8 +189,12 @@ void add_refused_horizons(ExtremeRows& rows) {
     }
     row.variable = "delta";
   };
-  const auto named = [](const std::string& check) {
-    return bare_finding(horizons, "half the period and more, 0 and less are refused", check, "1 if refused");
+  const auto named = [](const std::string& interval) {
+    return Check{.statement = horizons,
+                 .claim = "half the period and more, 0 and less are refused",
+                 .subject = "particles",
+                 .coordinates = {{"delta", interval}},
+                 .quantity = "1 if refused"};
   };
   rows.add(named("not between 0 and period/2"), [=](Finding& row) {
     const double inf = std::numeric_limits<double>::infinity();
@@ -218,21 +209,21 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
   // An odd number: no particle stands where the largest horizon ends.
   const Sweep sweep{{63}, {}, {largest_horizon(*subject.scene)}};
-  const std::string check = "delta just below period/2";
+  const Coordinate largest = {"delta", "just below period/2", "delta just below period/2"};
 
   const auto moment = [&](const Subject& one) {
-    return one.finding(horizons,
-                       scheme.model == 1 ? "at the largest, sum d_k W_k = 1" : "at the largest, sum z_k W_k / N_j = 1",
-                       check + ", first moment", "max |sum - 1|", Test::bounds);
+    return one.check(horizons, fmt::format("at the largest, {}", scheme.model->weights.first_moment_claim),
+                     {largest, {"of", "first moment"}}, "max |sum - 1|");
   };
   rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, sweep)); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
-  rows.add_control(moment(wrong), "a part of the kernel is missing",
-                   [=](Finding& row) { adopt(row, first_moment_is_one(wrong, sweep)); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(moment(*wrong), "a part of the kernel is missing",
+                     [=](Finding& row) { adopt(row, first_moment_is_one(*wrong, sweep)); });
+  }
 
   const auto norm = [&](double cfl) {
-    return subject.finding(horizons, "at the largest, c constant: a step at CFL 1 has the max norm 1",
-                           fmt::format("{}, CFL {:g}", check, cfl), "max norm of I + dt R", Test::bounds);
+    return subject.check(horizons, "at the largest, c constant: a step at CFL 1 has the max norm 1",
+                         {largest, at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto step = [=](Finding& row, double cfl) {
     adopt(row, step_is_bounded(subject, sweep, StepCondition::corrected, cfl));
@@ -256,10 +247,10 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
   const FieldBounds fields = field_bounds(scene, 0.0);
   std::vector<double> u(x.size());
   scene.u(x, 0.0, u);
-  // The central difference of the spline kernel's Model II below every gap, or the upwind one of Model I.
+  // The central difference of Model II with any kernel below every gap, or the upwind one of Model I.
   Subject nearest = subject;
   if (!upwind)
-    nearest = {{.model = 2, .nonlocal_divergence = false, .kernel = {"cubic-spline"}},
+    nearest = {{.model = &model_two, .nonlocal_divergence = false, .kernel = integrable_kernel()},
                0.0,
                subject.scene,
                subject.arrangement};
@@ -267,7 +258,7 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
   const std::vector<double> expected = limit.rate(u);
   for (const double alpha : {1.9, 1.99, 1.999, 1.999999}) {
     Subject close = subject;
-    close.scheme.kernel.alpha = alpha;
+    close.scheme.kernel.parameter = alpha;
     PlacedScheme placed(close.scheme, scene, close.mu, x, delta);
     std::vector<double> off = placed.rate(u);
     for (std::size_t j = 0; j < off.size(); ++j) off[j] -= expected[j];
@@ -286,15 +277,16 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
 void add_singular_kernels(ExtremeRows& rows, const SchemeChoice& scheme) {
   const Subject subject = subject_on(scheme, scene_named("lee-du-2019"));
   const auto named = [&](const std::string& claim, Test test, const std::string& to) {
-    Finding finding = subject.finding(
-        exponents, claim,
-        fmt::format("delta = 4.5h, alpha = 1.9 to 1.999999, {}{} difference", test == Test::order ? "" : "bound, ", to),
-        fmt::format("max |rate - that of the {} difference|", to), test);
-    finding.subject.replace(finding.subject.rfind("power"), std::string::npos, "power(alpha)");
-    finding.theory_order = 1.0;
-    return finding;
+    std::vector<Coordinate> conditions = {at_ratio(4.5), {"alpha", "1.9 to 1.999999", "alpha = 1.9 to 1.999999"}};
+    if (test == Test::bounds) conditions.emplace_back("test", "bound");
+    conditions.emplace_back("to", to, to + " difference");
+    Check check =
+        subject.check(exponents, claim, conditions, fmt::format("max |rate - that of the {} difference|", to), test);
+    check.subject.replace(check.subject.rfind(scheme.kernel.name), std::string::npos, scheme.kernel.name + "(alpha)");
+    check.theory_order = 1.0;
+    return check;
   };
-  const std::string to_upwind = "Model I goes to the upwind difference like 2 - alpha";
+  const std::string to_upwind = fmt::format("{} goes to the upwind difference like 2 - alpha", scheme.model->name);
   rows.add(named(to_upwind, Test::order, "upwind"), [=](Finding& row) { approach_upwind(row, subject, true); });
   rows.add_control(
       named(to_upwind, Test::order, "central"), "it does not go to the central difference",
@@ -324,7 +316,8 @@ void add_rows_of_resolution(ExtremeRows& rows, const Extremes& extremes) {
   // Once a divergence, whatever alpha the study gives.
   for (const bool nonlocal : {false, true}) {
     const auto singular = std::find_if(extremes.schemes.begin(), extremes.schemes.end(), [&](const SchemeChoice& one) {
-      return one.model == 1 && one.kernel.name == "power" && one.nonlocal_divergence == nonlocal;
+      const auto& parameter = one.kernel.row().parameter;
+      return one.model->upwind && parameter && parameter->singular_at_two && one.nonlocal_divergence == nonlocal;
     });
     if (singular != extremes.schemes.end()) add_singular_kernels(rows, *singular);
   }

@@ -76,20 +76,22 @@ void carry(Finding& row, const Subject& subject, Followed followed) {
 
 void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
-  const Subject wrong = mistaken(subject, "downwind", "no viscosity"),
-                classical = mistaken(subject, "downwind", "SPH sum");
+  const Mistakes& mistakes = scheme.model->mistakes;
+  const auto wrong = mistaken(subject, mistakes.not_monotone), classical = mistaken(subject, mistakes.classical);
   const auto add = [&](const std::string& claim, const std::string& quantity, Followed followed) {
     const auto named = [&](const Subject& one) {
-      return one.finding(
-          statement, claim,
-          fmt::format("{}, 150 steps at CFL 1 and 1/2", followed == Followed::range ? "range" : "total variation"),
-          quantity, Test::bounds);
+      return one.check(statement, claim,
+                       {{"of", followed == Followed::range ? "range" : "total variation"},
+                        {"cfl", "1 and 1/2", "150 steps at CFL 1 and 1/2"}},
+                       quantity);
     };
     rows.add(named(subject), [=](Finding& row) { carry(row, subject, followed); });
-    rows.add_control(named(wrong), "a scheme that is not monotone", [=](Finding& row) { carry(row, wrong, followed); });
-    if (scheme.model == 2) {
-      rows.add_control(named(classical), "the classical sum is not monotone",
-                       [=](Finding& row) { carry(row, classical, followed); });
+    const auto add_control = [&](const Subject& one, const std::string& why) {
+      rows.add_control(named(one), why, [=](Finding& row) { carry(row, one, followed); });
+    };
+    if (wrong) add_control(*wrong, "a scheme that is not monotone");
+    if (classical) {
+      add_control(*classical, "the classical sum is not monotone");
     }
   };
   add("c constant: no over- or undershoot up to CFL 1", "largest excursion from [0, 1]", Followed::range);
@@ -125,18 +127,19 @@ void add_orders(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arran
   for (const Shape& shape : shapes) {
     for (const double ratio : {0.4, 3.5}) {
       const auto named = [&](double order) {
-        Finding finding = subject.finding(
+        Check check = subject.check(
             statement, fmt::format("the {} has order {} in L1", shape.name, shape.order == 1.0 ? "1" : "1/2"),
-            fmt::format("{}, delta = {:g}h, CFL 1/2", shape.name, ratio), "L1 error at T = 1/4", Test::order);
-        finding.theory_order = order;
-        return finding;
+            {{"shape", shape.name}, at_ratio(ratio), {"cfl", 0.5, "CFL 1/2"}}, "L1 error at T = 1/4", Test::order);
+        check.theory_order = order;
+        if (order != shape.order)
+          check.coordinates.emplace_back("order", order, order == 1.0 ? "asked for order 1" : "asked for order 1/2");
+        return check;
       };
       rows.add(named(shape.order), [=](Finding& row) { refine(row, subject, shape, ratio); });
       if (ratio > 1.0 || arrangement != Arrangement::uniform) continue;
-      Finding other = named(shape.order == 1.0 ? 0.5 : 1.0);
-      other.check += shape.order == 1.0 ? ", asked for order 1/2" : ", asked for order 1";
       rows.add_control(
-          other, "it is not the other one's order", [=](Finding& row) { refine(row, subject, shape, ratio); },
+          named(shape.order == 1.0 ? 0.5 : 1.0), "it is not the other one's order",
+          [=](Finding& row) { refine(row, subject, shape, ratio); },
           shape.order == 1.0 ? Verdict::above : Verdict::below);
     }
   }

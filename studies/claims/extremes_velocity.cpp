@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "studies/claims/extreme_rows.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/claims/stability.hpp"
 
 namespace acstudy {
@@ -40,23 +39,25 @@ void add_no_velocity(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement 
       return Point{.value = max_norm(placed.rate(uneven_values(placed.size()))), .upper = 0.0};
     });
   };
-  const auto named = [&](const Subject& subject, const std::string& check) {
-    return subject.finding("c = 0", "nothing changes, not by a bit", check, "max |rate|", Test::bounds);
+  const auto named = [&](const Subject& subject, const Coordinate& velocity) {
+    return subject.check("c = 0", "nothing changes, not by a bit", {velocity}, "max |rate|");
   };
   const Subject still = subject_on(scheme, scene_with("0"), arrangement);
-  rows.add(named(still, "c = 0, mu = max|c| = 0"), [=](Finding& row) { rest(row, still); });
+  rows.add(named(still, {"c", "0", "c = 0, mu = max|c| = 0"}), [=](Finding& row) { rest(row, still); });
   const Subject moved = subject_on(scheme, scene_with("1e-12"), arrangement);
-  rows.add_control(named(moved, "c = 1e-12"), "a velocity, however small", [=](Finding& row) { rest(row, moved); });
+  rows.add_control(named(moved, velocity_is("1e-12")), "a velocity, however small",
+                   [=](Finding& row) { rest(row, moved); });
 
-  if (scheme.model == 1) return;
+  if (!scheme.model->viscous) return;
   Subject viscous = still;
   viscous.mu = 1.0;
   const auto diffusion = [&](double cfl) {
-    return viscous.finding("c = 0", "with mu = 1 Model II is a diffusion: a step at CFL 1 has the max norm 1",
-                           fmt::format("CFL {:g}", cfl), "max norm of I + dt R", Test::bounds);
+    return viscous.check(
+        "c = 0", fmt::format("with mu = 1 {} is a diffusion: a step at CFL 1 has the max norm 1", scheme.model->name),
+        {at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto step = [=](Finding& row, double cfl) {
-    row.points = step_is_bounded(viscous, {{N}, ratios, {}}, StepCondition::corrected, cfl).points;
+    row.points = step_is_bounded(viscous, {{N}, ratios, {}}, StepCondition::corrected, cfl).take().points;
     row.variable = "delta/h";
   };
   rows.add(diffusion(1.0), [=](Finding& row) { step(row, 1.0); });
@@ -73,7 +74,7 @@ void rate_of_constants(Finding& row, const Subject& subject) {
     const std::vector<double> at(x.begin(), x.end());
     Point worst{.value = 0.0};
     for (std::size_t j = 0; j < rate.size(); ++j) {
-      const double relative = std::abs(rate[j]) / printed_rate(subject, at, one, placed.particles().delta, j).size;
+      const double relative = std::abs(rate[j]) / subject.printed_rate(at, one, placed.particles().delta, j).size;
       if (worse(relative, worst.value)) worst.value = relative;
     }
     worst.upper = row_round_off(placed.particles());
@@ -82,24 +83,24 @@ void rate_of_constants(Finding& row, const Subject& subject) {
 }
 
 void add_constant_velocity(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
-  const auto constants = [&](const Subject& subject, const std::string& check) {
-    return subject.finding("c constant", "constants stay as they are, to round-off", check,
-                           "max |rate of u = 1| / sum of |terms|", Test::bounds);
+  const auto constants = [&](const Subject& subject, const Coordinate& velocity) {
+    return subject.check("c constant", "constants stay as they are, to round-off", {velocity},
+                         "max |rate of u = 1| / sum of |terms|");
   };
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
-  rows.add(constants(subject, "c = 1"), [=](Finding& row) { rate_of_constants(row, subject); });
+  rows.add(constants(subject, velocity_is("1")), [=](Finding& row) { rate_of_constants(row, subject); });
   const Subject varying = subject_on(scheme, scene_with("1 + sin(2*pi*x)/2"), arrangement);
-  rows.add_control(constants(varying, "c = 1 + sin(2 pi x)/2"), "u = 1 is not steady where c varies",
+  rows.add_control(constants(varying, velocity_is("1 + sin(2 pi x)/2")), "u = 1 is not steady where c varies",
                    [=](Finding& row) { rate_of_constants(row, varying); });
 
   for (const std::string c : {"1", "-1"}) {
     const Subject one = subject_on(scheme, scene_with(c), arrangement);
     const auto norm = [&](double cfl) {
-      return one.finding("c constant", "maximum principle: a step at CFL 1 has the max norm 1",
-                         fmt::format("c = {}, CFL {:g}", c, cfl), "max norm of I + dt R", Test::bounds);
+      return one.check("c constant", "maximum principle: a step at CFL 1 has the max norm 1",
+                       {velocity_is(c), at_cfl(cfl)}, "max norm of I + dt R");
     };
     const auto step = [one](Finding& row, double cfl) {
-      row.points = step_is_bounded(one, {{N}, ratios, {}}, StepCondition::corrected, cfl).points;
+      row.points = step_is_bounded(one, {{N}, ratios, {}}, StepCondition::corrected, cfl).take().points;
       row.variable = "delta/h";
     };
     rows.add(norm(1.0), [=](Finding& row) { step(row, 1.0); });
@@ -119,8 +120,7 @@ void leave_of_equation(Finding& row, const Subject& subject, bool to_round_off) 
     const auto source = make_source(subject.scheme, scene, subject.mu, false, placed.particles().delta);
     const auto x = placed.particles().x.values();
     const double widest = gaps({x.begin(), x.end()}, scene.period()).largest;
-    // B is the average of b' over half of the horizon, G[b] over all of it.
-    const double part = subject.scheme.model == 1 ? 0.5 : 0.25;
+    const double part = subject.scheme.model->divergence_part;
     const double divergence = part * std::max(widest, placed.particles().delta) * fields.b_2 * fields.u;
     // u_t, c u_x and b u_x, c' u and b' u, each with a few roundings; c has at most the norm of b.
     const double round_off = 16.0 * epsilon * (2.0 * fields.u_1 + fields.b_1 * fields.u);
@@ -148,29 +148,29 @@ void add_lagrangian(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement a
                 with_nonlocal = subject_on(other, scene, arrangement);
 
   const auto exact = [&](const Subject& subject) {
-    return subject.finding(lagrangian, "local divergence: the equation is met to round-off, whatever delta",
-                           "scene lagrangian, to round-off", "max |rate + f - du/dt|", Test::bounds);
+    return subject.check(lagrangian, "local divergence: the equation is met to round-off, whatever delta",
+                         {on_scene("lagrangian"), {"bound", "to round-off"}}, "max |rate + f - du/dt|");
   };
   rows.add(exact(with_local), [=](Finding& row) { leave_of_equation(row, with_local, true); });
   rows.add_control(exact(with_nonlocal), "its divergence is not exact",
                    [=](Finding& row) { leave_of_equation(row, with_nonlocal, true); });
 
   const auto consistent = [&](const Subject& subject) {
-    return subject.finding(lagrangian, "nonlocal divergence: what is left is the consistency error of b'",
-                           "scene lagrangian, to O(max(h, delta))", "max |rate + f - du/dt|", Test::bounds);
+    return subject.check(lagrangian, "nonlocal divergence: what is left is the consistency error of b'",
+                         {on_scene("lagrangian"), {"bound", "to O(max(h, delta))"}}, "max |rate + f - du/dt|");
   };
   rows.add(consistent(with_nonlocal), [=](Finding& row) { leave_of_equation(row, with_nonlocal, false); });
-  const Subject without = mistaken(with_local, "no divergence term", "no divergence term");
+  const Subject without = *mistaken(with_local, "no divergence term");
   rows.add_control(consistent(without), "b' u is missing",
                    [=](Finding& row) { leave_of_equation(row, without, false); });
 
   if (arrangement != Arrangement::uniform) return;
   for (const std::string integrator : {"forward-euler", "ssprk3"}) {
     const auto time_only = [&](const Subject& subject) {
-      Finding finding = subject.finding(lagrangian, "local divergence: the error of a run is that of the time steps",
-                                        fmt::format("N = 16, {}", integrator), "max |u - exact|", Test::order);
-      finding.theory_order = integrator == "ssprk3" ? 3.0 : 1.0;
-      return finding;
+      Check check = subject.check(lagrangian, "local divergence: the error of a run is that of the time steps",
+                                  {{"N", 16.0, "N = 16"}, {"integrator", integrator}}, "max |u - exact|", Test::order);
+      check.theory_order = integrator == "ssprk3" ? 3.0 : 1.0;
+      return check;
     };
     rows.add(time_only(with_local), [=](Finding& row) { refine_steps(row, with_local, integrator); });
     if (integrator != "ssprk3") continue;
@@ -189,7 +189,7 @@ void rate_at_zero(Finding& row, const Subject& subject, const Subject& as) {
   at_every_horizon(row, subject, [&](PlacedScheme& placed) {
     const std::vector<double> u = uneven_values(placed.size()), rate = placed.rate(u);
     const auto x = placed.particles().x.values();
-    const PrintedRate printed = printed_rate(as, {x.begin(), x.end()}, u, placed.particles().delta, 0);
+    const PrintedRate printed = as.printed_rate({x.begin(), x.end()}, u, placed.particles().delta, 0);
     return Point{.value = std::abs(rate[0] - printed.value) / printed.size,
                  .upper = 2.0 * row_round_off(placed.particles())};
   });
@@ -218,24 +218,33 @@ void add_zero_of_velocity(ExtremeRows& rows, const SchemeChoice& scheme) {
   }
   for (const Fields& fields : cases) {
     const Subject subject = subject_on(scheme, scene_with(fields.c, fields.b));
-    const std::string check = "c = " + fields.c + (fields.b ? ", b = " + *fields.b : "") + ", x_0 = 0";
+    const auto conditions = [&](const std::string& c) {
+      std::vector<Coordinate> all = {velocity_is(c)};
+      if (fields.b) all.emplace_back("b", *fields.b, "b = " + *fields.b);
+      all.emplace_back("x_0", 0.0, "x_0 = 0");
+      return all;
+    };
     const auto named = [&](const Subject& one) {
-      return one.finding(zero, "its rate is what the formula gives", check, "|rate_0 - printed sum| / sum of |terms|",
-                         Test::bounds);
+      return one.check(zero, "its rate is what the formula gives", conditions(fields.c),
+                       "|rate_0 - printed sum| / sum of |terms|");
     };
     rows.add(named(subject), [=](Finding& row) { rate_at_zero(row, subject, subject); });
-    const Subject wrong = mistaken(subject, "downwind", "no viscosity");
-    rows.add_control(named(wrong), "a scheme with a mistake", [=](Finding& row) { rate_at_zero(row, wrong, subject); });
-    if (scheme.model != 1) continue;
-    const auto side = [&](const Subject& one, const std::string& where) {
-      return one.finding(zero, "Model I looks right where c_hat is zero", where, "share of neighbors on the right",
-                         Test::bounds);
+    if (const auto wrong = mistaken(subject, scheme.model->mistakes.not_monotone)) {
+      rows.add_control(named(*wrong), "a scheme with a mistake",
+                       [=](Finding& row) { rate_at_zero(row, *wrong, subject); });
+    }
+    if (!scheme.model->upwind) continue;
+    const auto side = [&](const Subject& one, const std::string& c) {
+      std::vector<Coordinate> all = conditions(c);
+      all.emplace_back("of", "side");
+      return one.check(zero, fmt::format("{} looks right where c_hat is zero", scheme.model->name), all,
+                       "share of neighbors on the right");
     };
-    rows.add(side(subject, check + ", side"), [=](Finding& row) { side_at_zero(row, subject); });
+    rows.add(side(subject, fields.c), [=](Finding& row) { side_at_zero(row, subject); });
     if (fields.b) continue;
     const std::string positive = "1e-300 + abs(" + fields.c + ")";
     const Subject left = subject_on(scheme, scene_with(positive));
-    rows.add_control(side(left, "c = " + positive + ", x_0 = 0, side"), "c_hat is positive, if only just",
+    rows.add_control(side(left, positive), "c_hat is positive, if only just",
                      [=](Finding& row) { side_at_zero(row, left); });
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -44,9 +45,11 @@ View view(const PlacedScheme& placed, std::ptrdiff_t j, const Gaps& gap) {
   return view;
 }
 
+using OfParticle = std::function<Measured(const View&)>;
+
 /// A point per N and horizon: what is worst of all particles and arrangements.
-void measure(Finding& finding, const Subject& subject, const Sweep& sweep,
-             const std::function<Measured(const View&)>& of) {
+std::vector<Point> worst_points(const Subject& subject, const Sweep& sweep, const OfParticle& of) {
+  std::vector<Point> points;
   for (const std::int64_t N : sweep.N) {
     for (const double delta : sweep.deltas(N, subject.scene->period())) {
       Point point{.N = N, .delta = delta};
@@ -64,170 +67,143 @@ void measure(Finding& finding, const Subject& subject, const Sweep& sweep,
       point.variable = delta / point.h;
       point.value = worst.value;
       point.upper = worst.upper;
-      finding.points.push_back(point);
+      points.push_back(point);
     }
   }
-  finding.variable = "delta/h";
-  judge(finding);
+  return points;
 }
 
-std::string remark_or(const Subject& subject, const char* model1, const char* model2) {
-  return subject.scheme.model == 1 ? model1 : model2;
+Measurement over_horizons(Check check, const Subject& subject, const Sweep& sweep, const OfParticle& of) {
+  check.variable = "delta/h";
+  return {std::move(check), [=](Finding& finding) { finding.points = worst_points(subject, sweep, of); }};
+}
+
+/// The largest difference of any entry of the operator to that row, in units of max|c_hat| / h_min.
+Point distance_to_difference(const Subject& subject, const std::vector<double>& x, double ratio) {
+  const Scene& scene = *subject.scene;
+  const Gaps gap = gaps(x, scene.period());
+  PlacedScheme placed(subject.scheme, scene, subject.mu, x, ratio * gap.smallest);
+  const PlacedScheme::Rows rows = placed.rows();
+  const std::ptrdiff_t n = std::ssize(x);
+  const Particles& particles = placed.particles();
+  double largest = 0.0;
+  for (std::ptrdiff_t j = 0; j < n; ++j) {
+    const std::array<double, 3> near =
+        subject.scheme.model->nearest.row(subject.scheme, scene, subject.mu, particles.delta, particles.x.at(j));
+    for (std::size_t k = 0; k < rows.width; ++k) {
+      const std::ptrdiff_t offset = (rows.first + static_cast<std::ptrdiff_t>(k) + 1 + n) % n;
+      const double expected = offset < 3 ? near[static_cast<std::size_t>(offset)] : 0.0;
+      const double off = std::abs(rows(static_cast<std::size_t>(j), k) - expected) * gap.smallest;
+      if (worse(off, largest)) largest = off;
+    }
+  }
+  return {.N = n,
+          .h = gap.largest,
+          .delta = ratio * gap.smallest,
+          .variable = gap.largest,
+          .value = largest / scene.max_relative_velocity(),
+          .upper = 32.0 * epsilon + 2.0 * epsilon * scene.period() / gap.smallest};
 }
 
 }  // namespace
 
-Finding nearest_neighbor_rows(const Subject& subject, const std::vector<std::int64_t>& N, double ratio) {
-  const Scene& scene = *subject.scene;
-  Finding finding = subject.finding(
-      remark_or(subject, "Remark 2.1", "Remark 2.1 for Model II"),
-      remark_or(subject, "the upwind difference", "central difference and nearest-neighbor viscosity"),
-      fmt::format("delta = {:g} h_min", ratio), "max |row - that of the difference| h_min / max|c_hat|", Test::bounds);
+Measurement nearest_neighbor_rows(const Subject& subject, const std::vector<std::int64_t>& N, double ratio) {
+  const NearestNeighbors& nearest = subject.scheme.model->nearest;
+  Check check = subject.check(std::string(nearest.statement), std::string(nearest.claim),
+                              {{"delta/h_min", ratio, fmt::format("delta = {:g} h_min", ratio)}},
+                              "max |row - that of the difference| h_min / max|c_hat|");
   if (ratio > 1.0) {
-    finding.promised = finding.expected = Verdict::violated;
-    finding.remark = "negative control: farther neighbors count";
+    check.be_control("farther neighbors count");
+    check.promised = Verdict::violated;
   }
-  const auto at = [&](double x, bool of_b) {
-    double c = 0.0, b = 0.0;
-    scene.c({&x, 1}, {&c, 1});
-    if (!scene.standing()) scene.b({&x, 1}, {&b, 1});
-    return of_b ? b : c - b;
-  };
-  for (const std::int64_t count : N) {
-    for (const std::vector<double>& x : subject.positions(count)) {
-      const Gaps gap = gaps(x, scene.period());
-      PlacedScheme placed(subject.scheme, scene, subject.mu, x, ratio * gap.smallest);
-      const PlacedScheme::Rows rows = placed.rows();
-      const auto n = static_cast<std::ptrdiff_t>(x.size());
-      double largest = 0.0;
-      for (std::ptrdiff_t j = 0; j < n; ++j) {
-        const double* const y = placed.particles().x.at(j);
-        const double left = y[0] - y[-1], right = y[1] - y[0];
-        double b_prime = 0.0;
-        if (!scene.standing()) scene.b_prime({y, 1}, {&b_prime, 1});
-        double near[3] = {0.0, 0.0, 0.0};  // entries at j - 1, j, j + 1
-        if (subject.scheme.model == 1) {
-          const bool looks_left = at(y[0], false) > 0.0;
-          const double s = looks_left ? 1.0 : -1.0, d = looks_left ? left : right, i = looks_left ? y[-1] : y[1];
-          if (subject.scheme.nonlocal_divergence && !scene.standing()) b_prime = s * (at(y[0], true) - at(i, true)) / d;
-          near[looks_left ? 0 : 2] = s * at(i, false) / d;
-          near[1] = -s * at(y[0], false) / d - b_prime;
-        } else {
-          const double to_left = 0.5 * (y[0] + y[-1]), to_right = 0.5 * (y[0] + y[1]), both = left + right;
-          if (subject.scheme.nonlocal_divergence && !scene.standing()) {
-            b_prime = 2.0 * (at(to_right, true) - at(to_left, true)) / both;
-          }
-          const double viscosity = subject.mu * std::max({left, right, placed.particles().delta});
-          near[0] = (at(to_left, false) + viscosity / left) / both;
-          near[2] = (-at(to_right, false) + viscosity / right) / both;
-          near[1] = (at(to_left, false) - at(to_right, false) - viscosity / left - viscosity / right) / both - b_prime;
-        }
-        for (std::size_t k = 0; k < rows.width; ++k) {
-          const std::ptrdiff_t offset = (rows.first + static_cast<std::ptrdiff_t>(k) + 1 + n) % n;
-          const double expected = offset < 3 ? near[offset] : 0.0;
-          const double off = std::abs(rows(static_cast<std::size_t>(j), k) - expected) * gap.smallest;
-          if (worse(off, largest)) largest = off;
-        }
-      }
-      finding.points.push_back({.N = count,
-                                .h = gap.largest,
-                                .delta = ratio * gap.smallest,
-                                .variable = gap.largest,
-                                .value = largest / scene.max_relative_velocity(),
-                                .upper = 32.0 * epsilon + 2.0 * epsilon * scene.period() / gap.smallest});
-    }
-  }
-  judge(finding);
-  return finding;
+  return {check, [=](Finding& finding) {
+            for (const std::int64_t count : N) {
+              for (const std::vector<double>& x : subject.positions(count)) {
+                finding.points.push_back(distance_to_difference(subject, x, ratio));
+              }
+            }
+          }};
 }
 
-Finding weights_are_not_negative(const Subject& subject, const Sweep& sweep) {
-  const bool first = subject.scheme.model == 1;
-  Finding finding = subject.finding(remark_or(subject, "Remark 2.2", "Remark 2.2 for Model II"),
-                                    first ? "W_k >= 0" : "sign(k) W_k >= 0", "weights", "max -W_k h", Test::bounds);
-  measure(finding, subject, sweep, [&](const View& particle) {
+Measurement weights_are_not_negative(const Subject& subject, const Sweep& sweep) {
+  const bool one_sided = subject.scheme.model->upwind;
+  const WeightClaims& claims = subject.scheme.model->weights;
+  const Check check = subject.check(std::string(claims.not_negative), std::string(claims.not_negative_claim),
+                                    {{"of", "weights"}}, "max -W_k h");
+  return over_horizons(check, subject, sweep, [=](const View& particle) {
     double largest = -HUGE_VAL;
     for (std::size_t k = 0; k < particle.z.size(); ++k) {
-      const double negative = first || particle.z[k] > 0.0 ? -particle.W[k] : particle.W[k];
+      const double negative = one_sided || particle.z[k] > 0.0 ? -particle.W[k] : particle.W[k];
       if (worse(negative, largest)) largest = negative;
     }
     return Measured{largest * particle.h, 0.0};
   });
-  return finding;
 }
 
-Finding first_moment_is_one(const Subject& subject, const Sweep& sweep) {
-  const bool first = subject.scheme.model == 1;
-  Finding finding = subject.finding(first ? "Remark 2.2" : "(3.4), first moment",
-                                    first ? "sum d_k W_k = 1" : "sum (x_i - x_j) W_k / N_j = 1", "first moment",
-                                    "max |sum - 1|", Test::bounds);
-  finding.remark = "bound: an ulp per neighbor and four more, and an ulp of a position relative to a gap";
-  measure(finding, subject, sweep, [](const View& particle) {
+Measurement first_moment_is_one(const Subject& subject, const Sweep& sweep) {
+  const WeightClaims& claims = subject.scheme.model->weights;
+  Check check = subject.check(std::string(claims.first_moment), std::string(claims.first_moment_claim),
+                              {{"of", "first moment"}}, "max |sum - 1|");
+  check.remark = "bound: an ulp per neighbor and four more, and an ulp of a position relative to a gap";
+  return over_horizons(check, subject, sweep, [](const View& particle) {
     const double moment = particle.sum([](double z, double W) { return std::abs(z * W); }) / particle.N;
     return Measured{std::abs(moment - 1.0), particle.round_off() + particle.ulp_of_gap};
   });
-  return finding;
 }
 
-Finding weights_cancel(const Subject& subject, const Sweep& sweep) {
-  Finding finding = subject.finding("(3.4), sum of weights", "sum W_k = 0", "sum of weights",
-                                    "max |sum W_k| / sum |W_k|", Test::bounds);
-  finding.remark = "bound: an ulp per neighbor and four more";
-  measure(finding, subject, sweep, [](const View& particle) {
+Measurement weights_cancel(const Subject& subject, const Sweep& sweep) {
+  Check check =
+      subject.check("(3.4), sum of weights", "sum W_k = 0", {{"of", "sum of weights"}}, "max |sum W_k| / sum |W_k|");
+  check.remark = "bound: an ulp per neighbor and four more";
+  return over_horizons(check, subject, sweep, [](const View& particle) {
     const double sum = particle.sum([](double, double W) { return W; });
     return Measured{std::abs(sum) / particle.sum([](double, double W) { return std::abs(W); }), particle.round_off()};
   });
-  return finding;
 }
 
-Finding second_moment_is_bounded(const Subject& subject, const Sweep& sweep, bool one_sided) {
-  Finding finding = subject.finding(
-      one_sided ? "(3.5), with |W_k|" : "(3.5)", "second moment at most max(h, delta)", "second moment",
-      one_sided ? "max sum z^2 |W_k| / (N_j max(h, delta))" : "max |sum z^2 W_k| / (N_j max(h, delta))", Test::bounds);
-  if (one_sided) finding.remark = "what Lemma 3.4 rests on: the printed sum is smaller, since its two sides cancel";
-  measure(finding, subject, sweep, [one_sided](const View& particle) {
+Measurement second_moment_is_bounded(const Subject& subject, const Sweep& sweep, bool one_sided) {
+  Check check = subject.check(
+      one_sided ? "(3.5), with |W_k|" : "(3.5)", "second moment at most max(h, delta)", {{"of", "second moment"}},
+      one_sided ? "max sum z^2 |W_k| / (N_j max(h, delta))" : "max |sum z^2 W_k| / (N_j max(h, delta))");
+  if (one_sided) check.remark = "what Lemma 3.4 rests on: the printed sum is smaller, since its two sides cancel";
+  return over_horizons(check, subject, sweep, [one_sided](const View& particle) {
     const double sum = particle.sum([&](double z, double W) { return z * z * (one_sided ? std::abs(W) : W); });
     return Measured{std::abs(sum) / particle.N / std::max(particle.h, particle.delta), 1.0 + particle.round_off()};
   });
-  return finding;
 }
 
-Finding renormalization_is_near_one(const Subject& subject, const Sweep& sweep) {
+Measurement renormalization_is_near_one(const Subject& subject, const Sweep& sweep) {
   const double mass = total_mass(subject.scheme.kernel);
-  Finding finding =
-      subject.finding("Lemma 3.1", "|N_j - 1| <= C h/delta", "whatever delta", "max |N_j - 1| delta / h", Test::bounds);
-  finding.remark =
+  Check check =
+      subject.check("Lemma 3.1", "|N_j - 1| <= C h/delta", {{"delta", "whatever delta"}}, "max |N_j - 1| delta / h");
+  check.remark =
       fmt::format("C = int_0^1 eta = {:.6g}: no particle is farther than h from any point of its cell", mass);
-  measure(finding, subject, sweep, [mass](const View& particle) {
+  return over_horizons(check, subject, sweep, [mass](const View& particle) {
     const double ratio = particle.delta / particle.h;
     return Measured{std::abs(particle.N - 1.0) * ratio,
                     mass * (1.0 + particle.round_off()) + particle.round_off() * ratio};
   });
-  return finding;
 }
 
-Finding order_of_renormalization(const Subject& subject, const std::vector<std::int64_t>& N, double delta) {
-  Finding finding = subject.finding("Lemma 3.1", "N_j - 1 = O(h/delta)", fmt::format("delta = {:.4g}", delta),
-                                    "max |N_j - 1|", Test::rate);
-  for (const std::int64_t count : N) {
-    Finding one = subject.finding({}, {}, {}, {}, Test::bounds);
-    measure(one, subject, {{count}, {}, {delta}}, [](const View& particle) {
-      return Measured{std::abs(particle.N - 1.0), 0.0};
-    });
-    Point& point = finding.points.emplace_back(one.points.front());
-    point.variable = point.h / delta;
-    point.upper = HUGE_VAL;
-  }
-  finding.variable = "h/delta";
-  finding.theory_order = 1.0;
-  judge(finding);
-  return finding;
+Measurement order_of_renormalization(const Subject& subject, const std::vector<std::int64_t>& N, double delta) {
+  Check check = subject.check("Lemma 3.1", "N_j - 1 = O(h/delta)", {{"delta", delta, fmt::format("delta = {}", delta)}},
+                              "max |N_j - 1|", Test::rate);
+  check.variable = "h/delta";
+  check.theory_order = 1.0;
+  return {check, [=](Finding& finding) {
+            finding.points = worst_points(subject, {N, {}, {delta}}, [](const View& particle) {
+              return Measured{std::abs(particle.N - 1.0), 0.0};
+            });
+            for (Point& point : finding.points) {
+              point.variable = point.h / delta;
+              point.upper = HUGE_VAL;
+            }
+          }};
 }
 
-Finding renormalization_is_at_least_one(const Subject& subject, std::int64_t N) {
-  Finding finding = subject.finding("Lemma 3.1, as printed", "N_j >= 1", {}, "min N_j", Test::bounds);
-  finding.check = "gaps in every pattern of 1, 4 and 20, horizons just below a particle";
-  finding.expected = Verdict::violated;
+namespace {
+
+void search_least_renormalization(Finding& finding, const Subject& subject, std::int64_t N) {
   const double period = subject.scene->period();
   Point least{.N = N, .value = HUGE_VAL, .lower = 1.0};
   constexpr int lengths[] = {1, 4, 20};
@@ -257,24 +233,9 @@ Finding renormalization_is_at_least_one(const Subject& subject, std::int64_t N) 
     }
   }
   finding.points.push_back(least);
-  finding.variable = "delta/h";
-  judge(finding);
-  return finding;
 }
 
-Finding kernel_moments(const KernelChoice& kernel) {
-  Finding finding{.statement = "(2.3)",
-                  .claim = "int s eta^delta(s) ds = 1 and the closed forms of cell moments are the integrals",
-                  .subject = "kernel " + kernel.label(),
-                  .check = "adaptive quadrature",
-                  .quantity = "moments over (0, z) / closed forms",
-                  .test = Test::bounds,
-                  .variable = "z",
-                  .promised = Verdict::holds,
-                  .expected = Verdict::holds};
-  if (integrable(kernel)) {
-    finding.remark = "also int z w^delta(z) dz = 1 of Model II, whose kernel is the odd extension, halved";
-  }
+void compare_moments(Finding& finding, const KernelChoice& kernel) {
   with_kernel(kernel, [&]<class K>(const K& k) {
     const auto add = [&](int power, double z, double closed, SourceRule rule) {
       const double moment = kernel_moment_adaptively(profile(k), power, z, rule);
@@ -288,8 +249,30 @@ Finding kernel_moments(const KernelChoice& kernel) {
       }
     }
   });
-  judge(finding);
-  return finding;
+}
+
+}  // namespace
+
+Measurement renormalization_is_at_least_one(const Subject& subject, std::int64_t N) {
+  Check check = subject.check("Lemma 3.1, as printed", "N_j >= 1",
+                              {{"delta", "just below a particle", "horizons just below a particle"}}, "min N_j");
+  check.coordinates.front() = {"arrangement", "gaps in every pattern of 1, 4 and 20"};
+  check.variable = "delta/h";
+  check.expected = Verdict::violated;
+  return {check, [=](Finding& finding) { search_least_renormalization(finding, subject, N); }};
+}
+
+Measurement kernel_moments(const KernelChoice& kernel) {
+  Check check{.statement = "(2.3)",
+              .claim = "int s eta^delta(s) ds = 1 and the closed forms of cell moments are the integrals",
+              .subject = "kernel " + kernel.label(),
+              .coordinates = {{"by", "adaptive quadrature"}},
+              .quantity = "moments over (0, z) / closed forms",
+              .variable = "z"};
+  if (integrable(kernel)) {
+    check.remark = "also int z w^delta(z) dz = 1 of Model II, whose kernel is the odd extension, halved";
+  }
+  return {check, [=](Finding& finding) { compare_moments(finding, kernel); }};
 }
 
 }  // namespace acstudy

@@ -3,6 +3,7 @@
 /// @file
 /// Lemmas 2.4 and 3.3: the exact max norm of a forward Euler step.
 
+#include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 
 namespace acstudy {
@@ -20,11 +21,11 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
 /// With dt = cfl times that, the max norm of I + dt R is at most 1 + dt (||c_hat'|| + ||b'||), whatever delta; 1 for
 /// a constant velocity, the maximum principle.
 /// With cfl >= 1.5 and the corrected condition it is not: the negative control.
-Finding step_is_bounded(const Subject& subject, const Sweep& sweep, StepCondition condition, double cfl = 1.0);
+Measurement step_is_bounded(const Subject& subject, const Sweep& sweep, StepCondition condition, double cfl = 1.0);
 
 /// The printed condition of Lemma 3.3 on gaps h/2, h/2, 3h/2, 3h/2, ... with the horizon just below 2h, where it does
 /// not bound the norm.
 /// @pre N is a multiple of 4; Model II
-Finding printed_condition_on_uneven_gaps(const Subject& subject, const std::vector<std::int64_t>& N);
+Measurement printed_condition_on_uneven_gaps(const Subject& subject, const std::vector<std::int64_t>& N);
 
 }  // namespace acstudy

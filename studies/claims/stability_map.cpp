@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "studies/claims/stability.hpp"
 
@@ -19,20 +20,24 @@ constexpr double round_off = 1e-11;
 
 /// What the bounds on a subject's steps are made of.
 struct Constants {
-  double C;      ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant
-  double b_1;    ///< ||b'||
-  double speed;  ///< max |c_hat|
+  double C;            ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant
+  double b_1;          ///< ||b'||
+  double speed;        ///< max |c_hat|
+  double lemma_speed;  ///< `StepLemma::speed`
 
-  explicit Constants(const Subject& subject) : speed(subject.scene->max_relative_velocity()) {
+  explicit Constants(const Subject& subject)
+      : speed(subject.scene->max_relative_velocity()),
+        lemma_speed(subject.scheme.model->step_lemma.speed(*subject.scene, subject.mu)) {
     const FieldBounds fields = field_bounds(*subject.scene, 0.0);
     C = fields.c_hat_1 + fields.b_1;
     b_1 = fields.b_1;
   }
 };
 
-/// Model II: mu reach_j >= max|c_hat| |x_i - x_j| for all neighbors, so that no neighbor's coefficient is negative.
+/// A viscous model: mu reach_j >= max|c_hat| |x_i - x_j| for all neighbors, so that no neighbor's coefficient is
+/// negative.
 bool viscosity_suffices(const Subject& subject, const PlacedScheme& placed, double speed) {
-  if (subject.scheme.model == 1) return true;
+  if (!subject.scheme.model->viscous) return true;
   const Particles& particles = placed.particles();
   for (std::ptrdiff_t j = 0; j < std::ssize(particles.x); ++j) {
     const double* const x = particles.x.at(j);
@@ -50,14 +55,14 @@ struct Frozen {
 
   Frozen(const Subject& subject, const Constants& constants, const std::vector<double>& x, double delta) {
     PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
-    R = sparse_rates(subject, placed);
-    lemma = lemma_step(subject.scheme, gaps(x, subject.scene->period()).smallest, constants.speed, subject.mu);
+    R = sparse_rates(placed);
+    lemma = gaps(x, subject.scene->period()).smallest / constants.lemma_speed;
     const auto decay = [&] {
-      if (subject.scheme.control.empty()) return placed.scheme().strongest_decay();
+      if (subject.scheme.control == nullptr) return placed.scheme().rows()->strongest_decay();
       // A control is stepped as the scheme that it is taken for.
       SchemeChoice itself = subject.scheme;
-      itself.control.clear();
-      return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().strongest_decay();
+      itself.control = nullptr;
+      return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().rows()->strongest_decay();
     };
     rows = viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
   }
@@ -65,7 +70,7 @@ struct Frozen {
 
 /// The largest dt at which the integrator's stability function phi(C dt) has no pole yet.
 double up_to_the_pole(const Integrator& integrator, double C) {
-  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.implicit_stages.front().diagonal * C) : unbounded;
+  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.diagonal(1) * C) : unbounded;
 }
 
 /// phi(C dt), to which theory bounds the norm of a step within the condition; infinite beyond the pole.
@@ -89,23 +94,22 @@ std::string step_claim(const Integrator& integrator) {
 
 bool is_bounded(const Point& point) { return std::isfinite(point.lower) || std::isfinite(point.upper); }
 
-/// Judges a finding, if theory bounds any of its values.
-void settle(Finding& finding) {
-  if (std::none_of(finding.points.begin(), finding.points.end(), is_bounded)) finding.expect_no_bound();
-  judge(finding);
+/// A measurement whose values theory may turn out to bound nowhere.
+Measurement bounded_if_at_all(const Check& check, std::function<void(Finding&)> measure) {
+  return {check, [measure = std::move(measure)](Finding& finding) {
+            measure(finding);
+            if (std::none_of(finding.points.begin(), finding.points.end(), is_bounded)) finding.expect_no_bound();
+          }};
 }
 
-std::string lemma_of(const Subject& subject) { return subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3"; }
-
-Finding finding_on(const Subject& subject, const Integrator& integrator, const std::string& statement,
-                   const std::string& claim, const std::string& quantity) {
-  Finding finding = subject.finding(lemma_of(subject) + ", " + statement, claim, std::string(integrator.name), quantity,
-                                    Test::bounds);
-  if (!subject.scheme.control.empty()) {
-    finding.expected = Verdict::violated;
-    finding.remark = "negative control: unstable at any step";
-  }
-  return finding;
+Check check_of(const Subject& subject, const Integrator& integrator, const std::string& statement,
+               const std::string& claim, const std::string& quantity, const std::string& variable) {
+  Check check =
+      subject.check(fmt::format("{}, {}", subject.scheme.model->step_lemma.name, statement), claim,
+                    {{"integrator", std::string(integrator.name)}, unspoken({"measure", quantity})}, quantity);
+  check.variable = variable;
+  if (subject.scheme.control != nullptr) check.be_control("unstable at any step");
+  return check;
 }
 
 /// The product of all steps from the uniform start to T along the motion, at a CFL number; `seen(t, norm, bound)` after
@@ -129,19 +133,19 @@ void product_along_motion(const Subject& subject, const Integrator& integrator, 
   BoundedSteps steps(scene.T(), [&](double t) { return cfl * frozen_at(t).lemma; });
   Eigen::MatrixXd product = Eigen::MatrixXd::Identity(N, N);
   double bound = 1.0;
-  while (const auto step = steps.next()) {
-    double least_rows = unbounded;
-    const RatesAt rates = [&](double fraction) -> const SparseMatrix& {
-      const Frozen& frozen = frozen_at(step->at(fraction));
-      least_rows = std::min(least_rows, frozen.rows);
-      return frozen.R;
-    };
-    take_step(integrator, rates, step->dt, product);
-    bound *= step_bound(integrator, step->dt, least_rows, constants.C);
+  double least_rows = unbounded;
+  const RatesAt rates = [&](double t) -> const SparseMatrix& {
+    const Frozen& frozen = frozen_at(t);
+    least_rows = std::min(least_rows, frozen.rows);
+    return frozen.R;
+  };
+  MatrixSystem system(rates, product);
+  integrate(integrator, system, steps, system, [&](std::int64_t, const TimeStep& step) {
+    bound *= step_bound(integrator, step.dt, std::exchange(least_rows, unbounded), constants.C);
     const double norm = max_norm(product);
-    seen(step->end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
-    if (norm == largest_norm) return;
-  }
+    seen(step.end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
+    return norm != largest_norm;
+  });
 }
 
 struct Measured {
@@ -199,130 +203,92 @@ bool entries_are_promised(const Subject& subject, const Integrator& integrator, 
                           const Constants& constants, double dt) {
   const double radius = monotonicity_radius(integrator);
   const bool any_step = std::isinf(radius), within = frozen.rows > 0.0 && dt <= radius * frozen.rows * (1.0 + 1e-12);
-  if (subject.scheme.model == 2) return within && (any_step ? constants.C * dt < 1.0 : constants.C == 0.0);
-  return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
+  if (subject.scheme.model->upwind) return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
+  return within && (any_step ? constants.C * dt < 1.0 : constants.C == 0.0);
 }
 
 std::string entries_claim(const Subject& subject, const Integrator& integrator) {
-  const std::string condition = subject.scheme.model == 1 ? "while c - b keeps its sign" : "at constant velocity";
+  const StepLemma& lemma = subject.scheme.model->step_lemma;
   const double radius = monotonicity_radius(integrator);
-  if (std::isinf(radius)) {
-    return subject.scheme.model == 1 ? "an M-matrix at any step while c - b keeps its sign and dt ||b'|| < 1"
-                                     : "an M-matrix while C dt < 1";
-  }
+  if (std::isinf(radius)) return std::string(lemma.m_matrix);
   return fmt::format("no entry of a step is negative up to {}the condition of the rows, {}",
-                     radius == 1.0 ? "" : "1 + sqrt(2) times ", condition);
+                     radius == 1.0 ? "" : "1 + sqrt(2) times ", lemma.where_positive);
 }
 
-}  // namespace
-
-const char* quantity_of(Measure measure) {
-  switch (measure) {
-    case Measure::norm:
-      return "max norm of a step";
-    case Measure::spectral:
-      return "spectral radius of a step";
-    case Measure::growth:
-      return "max norm of all steps to T";
+/// A point of the map: a measure at a horizon and a CFL number.
+Point map_point(const Subject& subject, const Integrator& integrator, const Constants& constants, std::int64_t N,
+                double ratio, double cfl, Measure measure) {
+  const double delta = ratio * subject.scene->period() / static_cast<double>(N);
+  if (measure == Measure::growth && subject.arrangement == Arrangement::moved) {
+    Point point{.N = N, .h = delta / ratio, .delta = delta};
+    product_along_motion(subject, integrator, N, delta, cfl, [&](double, double norm, double bound) {
+      point.value = norm;
+      point.upper = bound;
+    });
+    return point;
   }
-  return "";
-}
-
-Finding stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid,
-                      Measure measure) {
-  const Constants constants(subject);
   const double C = constants.C, T = subject.scene->T();
-  Finding finding = finding_on(subject, integrator, "map", step_claim(integrator), quantity_of(measure));
-  finding.variable = "CFL number";
-  const bool moving = measure == Measure::growth && subject.arrangement == Arrangement::moved;
-  for (const double ratio : grid.ratios) {
-    const double delta = ratio * subject.scene->period() / static_cast<double>(grid.N);
-    for (const double cfl : grid.cfl) {
-      Point point;
-      if (moving) {
-        point = {.N = grid.N, .h = delta / ratio, .delta = delta};
-        product_along_motion(subject, integrator, grid.N, delta, cfl, [&](double, double norm, double bound) {
-          point.value = norm;
-          point.upper = bound;
-        });
-      } else {
-        point = worst_of(subject, constants, grid.N, delta, [&](const Frozen& frozen) -> Measured {
-          const double dt = cfl * frozen.lemma, bound = step_bound(integrator, dt, frozen.rows, C);
-          if (measure != Measure::growth)
-            return {FrozenMeter(integrator, frozen, measure)(dt), bound * (1.0 + round_off)};
-          const std::int64_t n = steps_for(T, dt);
-          const double equal = T / static_cast<double>(n);
-          const double total = std::pow(step_bound(integrator, equal, frozen.rows, C), static_cast<double>(n));
-          return {norm_of_power(step_operator(integrator, frozen.R, equal), n), total * (1.0 + 1e-9)};
-        });
-      }
-      point.variable = cfl;
-      finding.points.push_back(point);
-    }
-  }
-  settle(finding);
-  return finding;
+  return worst_of(subject, constants, N, delta, [&](const Frozen& frozen) -> Measured {
+    const double dt = cfl * frozen.lemma, bound = step_bound(integrator, dt, frozen.rows, C);
+    if (measure != Measure::growth) return {FrozenMeter(integrator, frozen, measure)(dt), bound * (1.0 + round_off)};
+    const std::int64_t n = steps_for(T, dt);
+    const double equal = T / static_cast<double>(n);
+    const double total = std::pow(step_bound(integrator, equal, frozen.rows, C), static_cast<double>(n));
+    return {norm_of_power(step_operator(integrator, frozen.R, equal), n), total * (1.0 + 1e-9)};
+  });
 }
 
-Finding sharp_limit(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid, Measure measure,
-                    double highest) {
-  const Constants constants(subject);
-  const double C = constants.C;
-  const bool exact =
-      C == 0.0 && measure == Measure::norm && integrator.name == forward_euler.name && subject.scheme.control.empty();
-  const bool second = subject.scheme.model == 2;
-  Finding finding = finding_on(
-      subject, integrator, measure == Measure::norm ? "sharp in the max norm" : "sharp in the spectral radius",
-      !exact   ? "stable as far as the rows need, at least"
-      : second ? "monotone exactly up to dt mu (reach/N_j) sum_k W_k/(x_i - x_j) = 1, if mu reach >= |c| |x_i - x_j|"
-               : "monotone exactly up to c dt sum_k W_k = 1",
-      measure == Measure::norm ? "largest CFL number, max norm" : "largest CFL number, spectral radius");
-  finding.variable = "delta/h";
-  for (const double ratio : grid.ratios) {
-    const double delta = ratio * subject.scene->period() / static_cast<double>(grid.N);
-    Point worst{.N = grid.N, .h = delta / ratio, .delta = delta, .variable = ratio, .value = NAN};
-    for (const std::vector<double>& x : subject.positions(grid.N)) {
-      const Frozen frozen(subject, constants, x, delta);
-      const FrozenMeter meter(integrator, frozen, measure);
-      const double pole = up_to_the_pole(integrator, C);
-      const auto stable = [&](double cfl) {
-        const double dt = cfl * frozen.lemma;
-        return dt < pole && meter(dt) <= phi(integrator, C, dt) * (1.0 + round_off);
-      };
-      // The first CFL number that is not stable, a quarter farther each time; then between it and the last stable one.
-      double low = 1e-3, high = low;
-      if (!stable(low)) {
-        low = 0.0;
-      } else {
-        while (high < highest && stable(high = std::min(1.25 * high, highest))) low = high;
-        while (low < highest && high - low > 1e-9 * low) {
-          const double middle = 0.5 * (low + high);
-          (stable(middle) ? low : high) = middle;
-        }
-      }
-      const double promised = frozen.rows > 0.0 ? std::min(monotonicity_radius(integrator) * frozen.rows, pole) : 0.0;
-      const double least = std::min(promised / frozen.lemma, highest);
-      const double lower = least * (1.0 - 1e-6), upper = exact ? least * (1.0 + 1e-6) : unbounded;
-      // The smallest limit, unless another one is not within its bounds.
-      const bool within = lower <= low && low <= upper, was = worst.lower <= worst.value && worst.value <= worst.upper;
-      if (std::isnan(worst.value) || (was && (!within || low < worst.value))) {
-        worst.value = low;
-        worst.lower = lower;
-        worst.upper = upper;
-      }
-    }
-    finding.points.push_back(worst);
+/// The first CFL number that is not stable, a quarter farther each time; then between it and the last stable one.
+template <class Stable>
+double last_stable(Stable&& stable, double highest) {
+  double low = 1e-3, high = low;
+  if (!stable(low)) return 0.0;
+  while (high < highest && stable(high = std::min(1.25 * high, highest))) low = high;
+  while (low < highest && high - low > 1e-9 * low) {
+    const double middle = 0.5 * (low + high);
+    (stable(middle) ? low : high) = middle;
   }
-  settle(finding);
-  return finding;
+  return low;
 }
 
-Finding growth_curve(const Subject& subject, const Integrator& integrator, std::int64_t N, double ratio, double cfl) {
+/// Whether theory gives the limit itself, and not only that it is no smaller.
+bool limit_is_exact(const Subject& subject, const Integrator& integrator, Measure measure, double C) {
+  return C == 0.0 && measure == Measure::norm && integrator.name == forward_euler.name &&
+         subject.scheme.control == nullptr;
+}
+
+/// The smallest limit of the arrangement's particles, unless another one is not within its bounds.
+Point limit_at(const Subject& subject, const Integrator& integrator, const Constants& constants, std::int64_t N,
+               double ratio, Measure measure, double highest) {
+  const double delta = ratio * subject.scene->period() / static_cast<double>(N), C = constants.C;
+  const bool exact = limit_is_exact(subject, integrator, measure, C);
+  Point worst{.N = N, .h = delta / ratio, .delta = delta, .variable = ratio, .value = NAN};
+  for (const std::vector<double>& x : subject.positions(N)) {
+    const Frozen frozen(subject, constants, x, delta);
+    const FrozenMeter meter(integrator, frozen, measure);
+    const double pole = up_to_the_pole(integrator, C);
+    const auto stable = [&](double cfl) {
+      const double dt = cfl * frozen.lemma;
+      return dt < pole && meter(dt) <= phi(integrator, C, dt) * (1.0 + round_off);
+    };
+    const double limit = last_stable(stable, highest);
+    const double promised = frozen.rows > 0.0 ? std::min(monotonicity_radius(integrator) * frozen.rows, pole) : 0.0;
+    const double least = std::min(promised / frozen.lemma, highest);
+    const double lower = least * (1.0 - 1e-6), upper = exact ? least * (1.0 + 1e-6) : unbounded;
+    const bool within = lower <= limit && limit <= upper,
+               was = worst.lower <= worst.value && worst.value <= worst.upper;
+    if (std::isnan(worst.value) || (was && (!within || limit < worst.value))) {
+      worst.value = limit;
+      worst.lower = lower;
+      worst.upper = upper;
+    }
+  }
+  return worst;
+}
+
+void measure_growth(Finding& finding, const Subject& subject, const Integrator& integrator, std::int64_t N,
+                    double ratio, double cfl) {
   const Constants constants(subject);
-  Finding finding =
-      finding_on(subject, integrator, "growth curve", step_claim(integrator), "max norm of all steps to t");
-  finding.check += fmt::format(", delta = {:g}h, CFL {:g}", ratio, cfl);
-  finding.variable = "t";
   const double h = subject.scene->period() / static_cast<double>(N), delta = ratio * h;
   const auto seen = [&](double t, double norm, double bound) {
     finding.points.push_back({.N = N, .h = h, .delta = delta, .variable = t, .value = norm, .upper = bound});
@@ -342,23 +308,12 @@ Finding growth_curve(const Subject& subject, const Integrator& integrator, std::
       product = (S * product).eval();
     }
   }
-  settle(finding);
-  return finding;
 }
 
-Finding smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid) {
+void measure_smallest_entries(Finding& finding, const Subject& subject, const Integrator& integrator,
+                              const StabilityGrid& grid) {
   const Scene& scene = *subject.scene;
   const Constants constants(subject);
-  Finding finding =
-      finding_on(subject, integrator, "positivity", entries_claim(subject, integrator), "smallest entry of a step");
-  finding.variable = "CFL number";
-  if (subject.scheme.model == 1 && !relative_velocity_keeps_its_sign(scene)) {
-    finding.expected = Verdict::violated;
-    finding.remark =
-        "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; their entries "
-        "are "
-        "negative at any step";
-  }
   for (const double ratio : grid.ratios) {
     const double delta = ratio * scene.period() / static_cast<double>(grid.N);
     for (const double cfl : grid.cfl) {
@@ -378,8 +333,75 @@ Finding smallest_entry(const Subject& subject, const Integrator& integrator, con
       finding.points.push_back(worst);
     }
   }
-  settle(finding);
-  return finding;
+}
+
+}  // namespace
+
+const char* quantity_of(Measure measure) {
+  switch (measure) {
+    case Measure::norm:
+      return "max norm of a step";
+    case Measure::spectral:
+      return "spectral radius of a step";
+    case Measure::growth:
+      return "max norm of all steps to T";
+  }
+  return "";
+}
+
+Measurement stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid,
+                          Measure measure) {
+  return bounded_if_at_all(
+      check_of(subject, integrator, "map", step_claim(integrator), quantity_of(measure), "CFL number"),
+      [=, &integrator](Finding& finding) {
+        const Constants constants(subject);
+        for (const double ratio : grid.ratios) {
+          for (const double cfl : grid.cfl) {
+            finding.points.push_back(map_point(subject, integrator, constants, grid.N, ratio, cfl, measure));
+            finding.points.back().variable = cfl;
+          }
+        }
+      });
+}
+
+Measurement sharp_limit(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid,
+                        Measure measure, double highest) {
+  const Constants constants(subject);
+  const bool of_norm = measure == Measure::norm;
+  const std::string claim(limit_is_exact(subject, integrator, measure, constants.C)
+                              ? subject.scheme.model->step_lemma.sharp
+                              : "stable as far as the rows need, at least");
+  return bounded_if_at_all(
+      check_of(subject, integrator, of_norm ? "sharp in the max norm" : "sharp in the spectral radius", claim,
+               of_norm ? "largest CFL number, max norm" : "largest CFL number, spectral radius", "delta/h"),
+      [=, &integrator](Finding& finding) {
+        for (const double ratio : grid.ratios) {
+          finding.points.push_back(limit_at(subject, integrator, constants, grid.N, ratio, measure, highest));
+        }
+      });
+}
+
+Measurement growth_curve(const Subject& subject, const Integrator& integrator, std::int64_t N, double ratio,
+                         double cfl) {
+  Check check =
+      check_of(subject, integrator, "growth curve", step_claim(integrator), "max norm of all steps to t", "t");
+  check.coordinates.insert(check.coordinates.begin() + 2, {at_ratio(ratio), at_cfl(cfl)});
+  return bounded_if_at_all(
+      check, [=, &integrator](Finding& finding) { measure_growth(finding, subject, integrator, N, ratio, cfl); });
+}
+
+Measurement smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid) {
+  Check check = check_of(subject, integrator, "positivity", entries_claim(subject, integrator),
+                         "smallest entry of a step", "CFL number");
+  if (subject.scheme.model->upwind && !relative_velocity_keeps_its_sign(*subject.scene)) {
+    check.expected = Verdict::violated;
+    check.remark =
+        "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; their entries "
+        "are "
+        "negative at any step";
+  }
+  return bounded_if_at_all(
+      check, [=, &integrator](Finding& finding) { measure_smallest_entries(finding, subject, integrator, grid); });
 }
 
 }  // namespace acstudy

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/cases/measurement.hpp"
 #include "studies/claims/step_operator.hpp"
 
 namespace acstudy {
@@ -31,7 +32,8 @@ const char* quantity_of(Measure measure);
 /// and the integrator's stability function phi, a step grows by at most phi(C dt) while dt is at most
 /// `monotonicity_radius` times what the rows need: at any step of backward Euler, where phi(C dt) = 1/(1 - C dt), while
 /// C dt < 1.
-Finding stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid, Measure measure);
+Measurement stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid,
+                          Measure measure);
 
 /// The largest CFL number, found by bisection, up to which norm or spectral radius of a step keep to phi(C dt), at each
 /// horizon. At least what theory promises; exactly what the rows need for forward Euler on uniform standing particles
@@ -42,11 +44,12 @@ Finding stability_map(const Subject& subject, const Integrator& integrator, cons
 ///
 /// is necessary as well. If the second part fails, no step is monotone.
 /// @param highest  CFL number at which the search ends: the limit is this if it is not below
-Finding sharp_limit(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid, Measure measure,
-                    double highest = 1000.0);
+Measurement sharp_limit(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid,
+                        Measure measure, double highest = 1000.0);
 
 /// max |S_n ... S_1| against t at one CFL number and delta = ratio h.
-Finding growth_curve(const Subject& subject, const Integrator& integrator, std::int64_t N, double ratio, double cfl);
+Measurement growth_curve(const Subject& subject, const Integrator& integrator, std::int64_t N, double ratio,
+                         double cfl);
 
 /// Smallest entry of a step at each CFL number and horizon: not negative where theory says so.
 ///
@@ -54,6 +57,6 @@ Finding growth_curve(const Subject& subject, const Integrator& integrator, std::
 /// (Model II). The other integrators: up to `monotonicity_radius` times what the rows need, where c_hat keeps its sign
 /// on standing particles (Model I) or is constant (Model II). Of Model I with velocities of both signs the same is
 /// demanded, and expected to fail.
-Finding smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid);
+Measurement smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid);
 
 }  // namespace acstudy

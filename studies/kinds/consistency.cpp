@@ -22,22 +22,17 @@ void read_consistency(const Table& root, Study& study) {
   }
 
   for (const Subject& subject : read_subjects(root, study.scene)) {
-    for (const LemmaEstimate& estimate : estimates(subject.scheme.model)) {
+    for (const LemmaEstimate& estimate : subject.scheme.model->estimates) {
       // D does not depend on how the divergence is written.
       if (estimate.viscous && subject.scheme.nonlocal_divergence) continue;
-      const auto add = [&](const std::string& check, std::function<Finding()> take) {
-        const Finding named = subject.finding(std::string(estimate.statement), {}, check, {}, Test::bounds);
-        study.measurements.push_back({named.label(), [take = std::move(take)](const auto&) { return take(); }});
-      };
-      add("whatever delta", [=] { return consistency_whatever_delta(subject, estimate, sweep); });
+      std::vector<Measurement>& all = study.measurements;
+      all.push_back(consistency_whatever_delta(subject, estimate, sweep));
       for (const PathChoice& path : paths) {
-        if (path.nonlocal_source != estimate.nonlocal) continue;
-        add(path.name, [=] { return consistency_along(subject, estimate, path); });
+        if (path.nonlocal_source == estimate.nonlocal) all.push_back(consistency_along(subject, estimate, path));
       }
-      if (subject.scheme.model == 2 && estimate.nonlocal) {
-        add("delta << h", [=] { return order_below_spacing(subject, estimate, sweep.N, 0.01); });
-        add("delta -> 0 at fixed h",
-            [=] { return growth_below_spacing(subject, estimate, sweep.N.back(), sweep.ratios); });
+      if (!estimate.second_term.empty()) {
+        all.push_back(order_below_spacing(subject, estimate, sweep.N, 0.01));
+        all.push_back(growth_below_spacing(subject, estimate, sweep.N.back(), sweep.ratios));
       }
     }
   }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <set>
+#include <tuple>
 
 #include "studies/cases/study_result.hpp"
 #include "studies/claims/identities.hpp"
@@ -26,93 +28,116 @@ struct Row {
   Expectations expect;
 };
 
-/// A column: how a row is measured. Finding::subject, `check` and `expected` are set by the matrix.
+/// A column: what a row is put before. A path has no measurement yet, as each row runs a series of its own along it.
 struct Column {
   std::string name;
-  std::function<Finding(const SchemeEntry&, const std::vector<SeriesResult>&)> take;
+  std::function<Measurement(const SchemeEntry&)> measurement;
 };
 
-/// Errors of runs along a path, of the series that run it.
-Finding along_path(const Series& series, const SeriesResult& result) {
-  Finding finding{.statement = series.theory.statement,
-                  .claim = fmt::format("order {:g} in {}", series.theory.order, series.theory.variable),
-                  .quantity = "max-norm error at T",
-                  .test = Test::order,
-                  .variable = series.theory.variable,
-                  .theory_order = series.theory.order,
-                  .promised = series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed};
-  for (std::size_t i = 0; i < series.cases.size(); ++i) {
-    const Case& c = series.cases[i];
-    finding.points.push_back({c.N, c.h, c.delta, series.variable(c.h, c.delta), result.results[i].error_linf});
-    if (finding.failure.empty()) finding.failure = result.results[i].failure;
-  }
-  return finding;
+/// Errors of runs along a path, of the series of this number.
+Measurement along_path(const Series& series, std::size_t number) {
+  return {{.statement = series.theory.statement,
+           .claim = fmt::format("order {:g} in {}", series.theory.order, series.theory.variable),
+           .quantity = "max-norm error at T",
+           .test = Test::order,
+           .variable = series.theory.variable,
+           .theory_order = series.theory.order,
+           .promised = series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed},
+          [number](Finding& finding, const std::vector<SeriesResult>& all) {
+            const auto& [planned, results] = std::tie(*all[number].series, all[number].results);
+            for (std::size_t i = 0; i < planned.cases.size(); ++i) {
+              const Case& c = planned.cases[i];
+              finding.points.push_back({c.N, c.h, c.delta, planned.variable(c.h, c.delta), results[i].error_linf});
+              if (finding.failure.empty()) finding.failure = results[i].failure;
+            }
+          }};
 }
 
 /// What the scheme, with its own source, leaves of its equation.
-Finding consistency(const Subject& subject, const PathChoice& path) {
-  const Scene& scene = *subject.scene;
+Measurement consistency(const Subject& subject, const PathChoice& path) {
   const bool nonlocal = path.nonlocal_source;
-  Finding finding = subject.finding(
-      subject.scheme.model == 1 ? (nonlocal ? "Lemma 2.3" : "Lemma 2.5") : (nonlocal ? "Lemma 3.2" : "Lemma 3.4"),
-      nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {}, "max |rate + f - du/dt|",
-      Test::rate);
-  finding.variable = nonlocal ? "h" : "max(h,delta)";
-  finding.theory_order = 1.0;
-  for (const std::int64_t N : path.N) {
-    const double count = static_cast<double>(N), delta = path.delta({scene.period() / count, count});
-    const std::vector<double> x = subject.positions(N).front();
-    const double h = gaps(x, scene.period()).largest;
-    PlacedScheme placed(subject.scheme, scene, subject.mu, x, delta);
-    const auto source = make_source(subject.scheme, scene, subject.mu, nonlocal, delta);
-    finding.points.push_back(
-        {N, h, delta, nonlocal ? h : std::max(h, delta), max_norm(placed.truncation_error(*source, subject.t()))});
-  }
-  return finding;
+  Check check = subject.check(std::string(nonlocal ? subject.scheme.model->to_nonlocal : subject.scheme.model->to_pde),
+                              nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {},
+                              "max |rate + f - du/dt|", Test::rate);
+  check.variable = nonlocal ? "h" : "max(h,delta)";
+  check.theory_order = 1.0;
+  return {check, [=](Finding& finding) {
+            const Scene& scene = *subject.scene;
+            for (const std::int64_t N : path.N) {
+              const double count = static_cast<double>(N), delta = path.delta({scene.period() / count, count});
+              const std::vector<double> x = subject.positions(N).front();
+              const double h = gaps(x, scene.period()).largest;
+              PlacedScheme placed(subject.scheme, scene, subject.mu, x, delta);
+              const auto source = make_source(subject.scheme, scene, subject.mu, nonlocal, delta);
+              finding.points.push_back({N, h, delta, nonlocal ? h : std::max(h, delta),
+                                        max_norm(placed.truncation_error(*source, subject.t()))});
+            }
+          }};
 }
 
 /// The flow of the runs before the checks of a scene.
-Finding trajectories(const SchemeEntry& entry, const Scene& scene) {
-  Finding finding{.statement = "(2.7)",
-                  .claim = "x' = b(x) and x(0) = x_0 along trajectories, which do not cross",
-                  .quantity = "refusals of the flow by the checks of the scene",
-                  .test = Test::bounds,
-                  .variable = "",
-                  .promised = Verdict::holds};
-  SceneText text = scene.text();
-  if (entry.scheme.control == misprinted_trajectories) text.flow = misprinted_flow;
-  Point point{.value = 0.0, .lower = 0.0, .upper = 0.0};
-  try {
-    const Scene checked(text);
-  } catch (const SceneError& error) {
-    point.value = 1.0;
-    finding.remark = error.what();
-  }
-  finding.points.push_back(point);
-  return finding;
+Measurement trajectories(const SchemeEntry& entry, const std::shared_ptr<const Scene>& scene) {
+  return {{.statement = "(2.7)",
+           .claim = "x' = b(x) and x(0) = x_0 along trajectories, which do not cross",
+           .quantity = "refusals of the flow by the checks of the scene"},
+          [=](Finding& finding) {
+            SceneText text = scene->text();
+            const Control* const control = entry.scheme.control;
+            if (control != nullptr && control->flow != nullptr) text.flow = control->flow;
+            Point point{.value = 0.0, .lower = 0.0, .upper = 0.0};
+            try {
+              const Scene checked(text);
+            } catch (const SceneError& error) {
+              point.value = 1.0;
+              finding.remark = error.what();
+            }
+            finding.points.push_back(point);
+          }};
 }
 
-/// A mistake is noticed by some check, and nothing is noticed where there is none.
-Finding alarms(const std::string& control, const std::string& subject, double count) {
-  Finding finding{.statement = "detection",
-                  .claim = "no check raises an alarm",
-                  .subject = subject,
-                  .check = "alarms",
-                  .quantity = "checks that raise an alarm",
-                  .test = Test::bounds,
-                  .variable = "",
-                  .promised = Verdict::holds,
-                  .expected = Verdict::holds,
-                  .points = {{.value = count, .lower = 0.0, .upper = 0.0}}};
-  for (const NamedControl& known : named_controls) {
-    if (known.name != control) continue;
-    finding.claim = "some check raises an alarm";
-    finding.remark = known.mistake;
-    finding.points.front().lower = 1.0;
-    finding.points.front().upper = HUGE_VAL;
+/// A cell of the matrix, whose finding the count of alarms rests on, too: it is measured once, by whichever asks first.
+class Cell {
+ public:
+  explicit Cell(Measurement measurement) : state_(std::make_shared<State>(std::move(measurement))) {}
+
+  const Finding& finding(const std::vector<SeriesResult>& results) const {
+    std::call_once(state_->flag, [&] { state_->finding = state_->measurement.take(results); });
+    return state_->finding;
   }
-  judge(finding);
-  return finding;
+  Measurement measurement() const {
+    return {state_->measurement.check, [cell = *this](Finding& finding, const std::vector<SeriesResult>& results) {
+              // Its name may have been told apart from others since.
+              std::vector<Coordinate> coordinates = std::move(finding.coordinates);
+              finding = cell.finding(results);
+              finding.coordinates = std::move(coordinates);
+            }};
+  }
+
+ private:
+  struct State {
+    explicit State(Measurement its_measurement) : measurement(std::move(its_measurement)) {}
+    Measurement measurement;
+    std::once_flag flag;
+    Finding finding;
+  };
+  std::shared_ptr<State> state_;
+};
+
+/// A mistake is noticed by some check, and nothing is noticed where there is none.
+Measurement alarms(const Control* control, const std::vector<Cell>& cells) {
+  Check check{.statement = "detection", .claim = "no check raises an alarm", .quantity = "checks that raise an alarm"};
+  Point bounds{.lower = 0.0, .upper = 0.0};
+  if (control != nullptr) {
+    check.claim = "some check raises an alarm";
+    check.remark = control->mistake;
+    bounds.lower = 1.0;
+    bounds.upper = HUGE_VAL;
+  }
+  return {check, [=](Finding& finding, const std::vector<SeriesResult>& results) {
+            const auto raised = [&](const Cell& cell) { return cell.finding(results).alarm(); };
+            finding.points.push_back(bounds);
+            finding.points.back().value = static_cast<double>(std::count_if(cells.begin(), cells.end(), raised));
+          }};
 }
 
 /// A path that all rows are put before.
@@ -147,7 +172,8 @@ Expectations read_expectations(const Table& table, const std::vector<Column>& co
   return expect;
 }
 
-void read_controls(const Table& root, Study& study) {
+/// [time] of runs that mistaken schemes can take as well.
+Stepping read_stepping(const Table& root, Study& study) {
   const Stepping time = read_problem(root, study);
   if (time.rule.bound == StepRule::Bound::rows) {
     time.at_step.fail("bound = \"rows\"; a control does not say what its rows need: leave bound out");
@@ -157,7 +183,11 @@ void read_controls(const Table& root, Study& study) {
         .fail(fmt::format("integrator = \"{}\"; a control has no matrix to solve with: write an explicit one",
                           time.integrator->name));
   }
-  const auto scene = study.scene;
+  return time;
+}
+
+/// The columns that need no runs.
+std::vector<Column> columns_without_runs(const Table& root, const std::shared_ptr<const Scene>& scene) {
   const auto constant = std::make_shared<const Scene>(SceneText{.name = "",
                                                                 .period = "1",
                                                                 .T = "1",
@@ -166,41 +196,44 @@ void read_controls(const Table& root, Study& study) {
                                                                 .u = "sin(2*pi*(x - t))",
                                                                 .flow = std::nullopt});
   const auto on_scene = [scene](const SchemeEntry& entry) {
-    const Arrangement arrangement = scene->standing() ? Arrangement::jittered : Arrangement::moved;
-    return Subject{entry.scheme, entry.mu, scene, arrangement};
+    return Subject{entry.scheme, entry.mu, scene, scene->standing() ? Arrangement::jittered : Arrangement::moved};
   };
   const Sweep sweep{{100, 200}, {0.1, 1.0, 2.5, 10.0}, {}};
 
   std::vector<Column> columns;
-  const std::vector<Table> path_tables = root.array_of_tables("path");
-  std::vector<PathChoice> paths;
-  for (const Table& table : path_tables) paths.push_back(read_column(table));
-  for (const PathChoice& path : paths) columns.push_back({path.name, {}});
   for (const Table& table : root.array_of_tables("consistency")) {
     const PathChoice path = read_column(table);
     for (const std::int64_t N : path.N) {
       const double count = static_cast<double>(N), delta = path.delta({scene->period() / count, count});
       check_horizon(*scene, N, delta, table.place(*table.find("delta")));
     }
-    columns.push_back({"consistency, " + path.name,
-                       [=](const SchemeEntry& entry, const auto&) { return consistency(on_scene(entry), path); }});
+    columns.push_back(
+        {"consistency, " + path.name, [=](const SchemeEntry& entry) { return consistency(on_scene(entry), path); }});
   }
-  columns.push_back({"nearest neighbors", [=](const SchemeEntry& entry, const auto&) {
-                       return nearest_neighbor_rows(on_scene(entry), sweep.N, 0.5);
-                     }});
-  columns.push_back({"first moment", [=](const SchemeEntry& entry, const auto&) {
-                       return first_moment_is_one(on_scene(entry), sweep);
-                     }});
-  columns.push_back({"step norm", [=](const SchemeEntry& entry, const auto&) {
+  columns.push_back({"nearest neighbors",
+                     [=](const SchemeEntry& entry) { return nearest_neighbor_rows(on_scene(entry), sweep.N, 0.5); }});
+  columns.push_back(
+      {"first moment", [=](const SchemeEntry& entry) { return first_moment_is_one(on_scene(entry), sweep); }});
+  columns.push_back({"step norm", [=](const SchemeEntry& entry) {
                        return step_is_bounded(on_scene(entry), sweep, StepCondition::corrected);
                      }});
-  columns.push_back({"maximum principle", [=](const SchemeEntry& entry, const auto&) {
+  columns.push_back({"maximum principle", [=](const SchemeEntry& entry) {
                        const Subject subject{entry.scheme, 1.0, constant, Arrangement::jittered};
                        return step_is_bounded(subject, sweep, StepCondition::corrected);
                      }});
-  columns.push_back(
-      {"trajectories", [scene](const SchemeEntry& entry, const auto&) { return trajectories(entry, *scene); }});
+  columns.push_back({"trajectories", [=](const SchemeEntry& entry) { return trajectories(entry, scene); }});
+  return columns;
+}
 
+void read_controls(const Table& root, Study& study) {
+  const Stepping time = read_stepping(root, study);
+  const auto scene = study.scene;
+  const std::vector<Table> path_tables = root.array_of_tables("path");
+  std::vector<PathChoice> paths;
+  for (const Table& table : path_tables) paths.push_back(read_column(table));
+  std::vector<Column> columns;
+  for (const PathChoice& path : paths) columns.push_back({path.name, {}});
+  for (Column& column : columns_without_runs(root, scene)) columns.push_back(std::move(column));
   std::set<std::string> names;
   for (const Column& column : columns) {
     if (!names.insert(column.name).second) {
@@ -215,35 +248,27 @@ void read_controls(const Table& root, Study& study) {
   }
 
   for (const Row& row : rows) {
-    const std::string subject = scheme_label(row.entry.scheme, scene->standing());
-    using Measure = std::function<Finding(const std::vector<SeriesResult>&)>;
-    std::vector<Measure> cells;
+    const auto put = [&](Measurement measurement, const std::string& column) {
+      Check& check = measurement.check;
+      check.subject = scheme_label(row.entry.scheme, scene->standing());
+      check.coordinates = scheme_coordinates(row.entry.scheme, row.entry.mu, scene->standing());
+      check.coordinates.insert(check.coordinates.begin(), {"column", column});
+      const auto expected = row.expect.find(column);
+      check.expected = expected == row.expect.end() ? check.promised : expected->second;
+      return measurement;
+    };
+    std::vector<Cell> cells;
     for (std::size_t p = 0; p < columns.size(); ++p) {
-      Column column = columns[p];
       if (p < paths.size()) {
         const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
-        column.take = [s = study.series.size()](const SchemeEntry&, const std::vector<SeriesResult>& results) {
-          return along_path(*results[s].series, results[s]);
-        };
         study.series.push_back(make_series(study, time, row.entry, paths[p], at_delta));
+        cells.emplace_back(put(along_path(study.series.back(), study.series.size() - 1), columns[p].name));
+      } else {
+        cells.emplace_back(put(columns[p].measurement(row.entry), columns[p].name));
       }
-      cells.push_back([=](const std::vector<SeriesResult>& results) {
-        Finding finding = column.take(row.entry, results);
-        finding.subject = subject;
-        finding.check = column.name;
-        const auto expected = row.expect.find(column.name);
-        finding.expected = expected == row.expect.end() ? finding.promised : expected->second;
-        judge(finding);
-        return finding;
-      });
-      study.measurements.push_back({subject + "; " + column.name, cells.back()});
+      study.measurements.push_back(cells.back().measurement());
     }
-    study.measurements.push_back({subject + "; alarms", [=](const std::vector<SeriesResult>& results) {
-                                    const auto count =
-                                        std::count_if(cells.begin(), cells.end(),
-                                                      [&](const Measure& cell) { return cell(results).alarm(); });
-                                    return alarms(row.entry.scheme.control, subject, static_cast<double>(count));
-                                  }});
+    study.measurements.push_back(put(alarms(row.entry.scheme.control, cells), "alarms"));
   }
 }
 

@@ -31,23 +31,18 @@ void read_digits(const Table& root, Study& study) {
   const Table digits = root.sub_table("digits");
   // The particles of larger ratios would fill the memory.
   const std::vector<double> ratios = read_positive(digits, "ratios", "ratios = [1e-12, 0.5, 2.5, 100, 1e4]", 1e5);
-  const auto add = [&](const Finding& named, std::function<Finding()> take) {
-    study.measurements.push_back({named.label(), [take = std::move(take)](const auto&) { return take(); }});
-  };
 
   std::set<std::string> known;
   for (const Table& table : root.array_of_tables("weights")) {
-    const int model = read_model(table);
-    const WeightsChoice choice{model, read_kernel(table, model)};
-    if (!known.insert(fmt::format("{} {}", model, choice.kernel.label())).second) {
+    const ModelCard* const model = &read_model(table);
+    const WeightsChoice choice{model, read_kernel(table, *model)};
+    if (!known.insert(fmt::format("{} {}", model->number, choice.kernel.label())).second) {
       table.place().fail("the same weights a second time; leave one of them out");
     }
     for (const CellForm form : {CellForm::factored, CellForm::difference}) {
-      add(round_off_of_weights(choice, {}, form), [=] { return round_off_of_weights(choice, ratios, form); });
+      study.measurements.push_back(round_off_of_weights(choice, ratios, form));
     }
-    if (model == 2) {
-      add(round_off_of_renormalization(choice, {}), [=] { return round_off_of_renormalization(choice, ratios); });
-    }
+    if (model->renormalized) study.measurements.push_back(round_off_of_renormalization(choice, ratios));
   }
 
   const toml::node* const scene = root.find("scene");
@@ -63,11 +58,11 @@ void read_digits(const Table& root, Study& study) {
   const Table table = root.sub_table("gaps");
   const std::vector<double> times = read_positive(table, "times", "times = [1, 5, 8]", 30.0);
   const std::int64_t N = table.whole("N", table.need("N", "N = 1000"), 3, 1'000'000);
-  add(round_off_of_gaps(*study.scene, N, {}), [=, scene = study.scene] { return round_off_of_gaps(*scene, N, times); });
+  study.measurements.push_back(round_off_of_gaps(study.scene, N, times));
 }
 
 constexpr Key weights_keys[] = {
-    {"model", "1 or 2", "Model I or Model II"},
+    {"model", "whole number", "as in a [[scheme]]"},
     {"kernel", "a kernel", "as in a [[scheme]]"},
 };
 constexpr Key digits_keys[] = {

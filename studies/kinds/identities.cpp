@@ -13,39 +13,20 @@ namespace {
 void read_identities(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
   const Sweep sweep = read_sweep(root.sub_table("sweep"), *study.scene);
-  const auto add = [&](std::string name, std::function<Finding()> take) {
-    study.measurements.push_back({std::move(name), [take = std::move(take)](const auto&) { return take(); }});
-  };
+  std::vector<Measurement>& all = study.measurements;
   std::set<std::string> kernels;
   for (const Subject& subject : read_subjects(root, study.scene)) {
     const KernelChoice& kernel = subject.scheme.kernel;
-    if (kernels.insert(kernel.label()).second) {
-      add("(2.3): kernel " + kernel.label(), [=] { return kernel_moments(kernel); });
-    }
-    const auto add_for_subject = [&](const std::string& statement, const std::string& check,
-                                     std::function<Finding()> take) {
-      add(subject.finding(statement, {}, check, {}, Test::bounds).label(), std::move(take));
-    };
-    add_for_subject("Remark 2.1", "delta below every gap",
-                    [=] { return nearest_neighbor_rows(subject, sweep.N, 0.9); });
-    add_for_subject("Remark 2.1", "delta above every gap",
-                    [=] { return nearest_neighbor_rows(subject, sweep.N, 4.0); });
-    add_for_subject("Remark 2.2", "weights", [=] { return weights_are_not_negative(subject, sweep); });
-    add_for_subject(subject.scheme.model == 1 ? "Remark 2.2" : "(3.4)", "first moment",
-                    [=] { return first_moment_is_one(subject, sweep); });
-    if (subject.scheme.model == 1) continue;
-    add_for_subject("(3.4)", "sum of weights", [=] { return weights_cancel(subject, sweep); });
-    add_for_subject("(3.5)", "second moment", [=] { return second_moment_is_bounded(subject, sweep, false); });
-    add_for_subject("(3.5), with |W_k|", "second moment",
-                    [=] { return second_moment_is_bounded(subject, sweep, true); });
-    add_for_subject("Lemma 3.1", "whatever delta", [=] { return renormalization_is_near_one(subject, sweep); });
-    for (const double delta : sweep.horizons) {
-      add_for_subject("Lemma 3.1", "fixed horizon", [=] { return order_of_renormalization(subject, sweep.N, delta); });
-    }
-    if (subject.arrangement == Arrangement::uniform) {
-      add_for_subject("Lemma 3.1, as printed", "patterns of gaps",
-                      [=] { return renormalization_is_at_least_one(subject, 16); });
-    }
+    if (kernels.insert(kernel.label()).second) all.push_back(kernel_moments(kernel));
+    for (const double ratio : {0.9, 4.0}) all.push_back(nearest_neighbor_rows(subject, sweep.N, ratio));
+    all.push_back(weights_are_not_negative(subject, sweep));
+    all.push_back(first_moment_is_one(subject, sweep));
+    if (!subject.scheme.model->renormalized) continue;
+    all.push_back(weights_cancel(subject, sweep));
+    for (const bool one_sided : {false, true}) all.push_back(second_moment_is_bounded(subject, sweep, one_sided));
+    all.push_back(renormalization_is_near_one(subject, sweep));
+    for (const double delta : sweep.horizons) all.push_back(order_of_renormalization(subject, sweep.N, delta));
+    if (subject.arrangement == Arrangement::uniform) all.push_back(renormalization_is_at_least_one(subject, 16));
   }
 }
 

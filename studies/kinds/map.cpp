@@ -133,94 +133,108 @@ void require_four(const Table& map, const char* key, std::size_t count) {
   }
 }
 
+/// The series of a scheme over the plane, a horizon each.  @return the plane, with the number of the first
+Plane add_series(const Table& map, const Stepping& time, const SchemeEntry& entry, bool nonlocal, Plane plane,
+                 Study& study) {
+  const toml::array& delta_nodes = map.list("delta", "");
+  plane.first = study.series.size();
+  for (std::size_t d = 0; d < plane.delta.size(); ++d) {
+    const double delta = plane.delta[d];
+    Series series{.scheme = entry.scheme,
+                  .path = fmt::format("delta = {:g}", delta),
+                  .delta_text = fmt::format("{:g}", delta),
+                  .nonlocal_source = nonlocal,
+                  .theory = theory_for(entry.scheme, study.scene->standing(), nonlocal, true, delta < plane.h.back()),
+                  .expected = Verdict::confirmed,
+                  .cases = {}};
+    for (const std::int64_t N : plane.N) {
+      series.cases.push_back(make_case(study, time, entry, N, delta, nonlocal, map.place(delta_nodes[d])));
+    }
+    study.series.push_back(std::move(series));
+  }
+  return plane;
+}
+
+/// What is said of a scheme's errors over the plane against one of the two solutions.
+class Limits {
+ public:
+  Limits(const SchemeEntry& entry, bool standing, bool nonlocal, Plane plane, std::vector<Measurement>& all)
+      : entry_(entry), standing_(standing), nonlocal_(nonlocal), plane_(std::move(plane)), all_(all) {}
+
+  void add() const { nonlocal_ ? add_against_nonlocal() : add_against_local(); }
+
+ private:
+  /// A limit at one horizon.
+  Coordinate at(std::size_t d) const { return at_horizon(plane_.delta[d]); }
+  std::string theorem_and(const char* part) const { return theorem(entry_.scheme, standing_) + part; }
+  Theory theory_at(std::size_t d) const {
+    return theory_for(entry_.scheme, standing_, nonlocal_, true, plane_.delta[d] < plane_.h.back());
+  }
+
+  template <class Take>
+  void add(Check check, const Coordinate& condition, Take points) const {
+    const std::string solution = nonlocal_ ? "nonlocal" : "local";
+    check.subject = scheme_label(entry_.scheme, standing_);
+    check.coordinates = scheme_coordinates(entry_.scheme, entry_.mu, standing_);
+    check.coordinates.insert(check.coordinates.begin(), {{"source", solution, solution + " source"}, condition});
+    check.quantity = "max error against the " + solution + " solution";
+    check.expected = check.promised;
+    all_.emplace_back(check, [points, plane = plane_](Finding& finding, const Results& results) {
+      finding.points = points(plane, results);
+      finding.remark = first_blow_up(plane, results);
+    });
+  }
+  static Check order(const std::string& statement, const char* claim, const char* variable = "h", double order = 1.0) {
+    return {.statement = statement,
+            .claim = claim,
+            .test = Test::order,
+            .variable = variable,
+            .theory_order = order,
+            .promised = order == 0.0 ? Verdict::stagnates : Verdict::confirmed};
+  }
+
+  void add_against_nonlocal() const {
+    const std::size_t last = plane_.delta.size() - 1;
+    add(order(theorem_and(" (1)"), "h -> 0 at a fixed horizon: the nonlocal solution, O(h)"), at(last),
+        [last](const Plane& p, const Results& r) { return along_h(p, r, last); });
+    add(order(theory_at(0).statement, "h -> 0 above the horizon: the nonlocal solution, O(h)"), at(0),
+        [](const Plane& p, const Results& r) { return along_h(p, r, 0); });
+    add(order(theorem_and(" (1), (2)"), "h -> 0: O(h) uniformly in the horizon"), {"delta", "worst horizon"},
+        over_horizons);
+  }
+  void add_against_local() const {
+    const std::size_t last = plane_.delta.size() - 1;
+    add(order(theorem_and(" (1)"), "h -> 0 at a fixed horizon: not the local solution, the error settles", "h",
+              theory_at(last).order),
+        at(last), [last](const Plane& p, const Results& r) { return along_h(p, r, last); });
+    add(order(theorem_and(" (1), (2)"), "h -> 0, then delta -> 0: nonlocal solution to local one, O(delta)", "delta"),
+        {"delta", "limits h -> 0"}, limits);
+    add(order(theorem_and(" (2)"), "h -> 0 above the horizon: the local solution, O(h)"), at(0),
+        [](const Plane& p, const Results& r) { return along_h(p, r, 0); });
+    Check surface = order(theorem_and(" (2)"), "h and delta -> 0 in any relation: the local solution, O(max(h, delta))",
+                          "max(h,delta)");
+    surface.test = Test::surface;
+    add(surface, {"delta", "all horizons and spacings"}, everywhere);
+  }
+
+  const SchemeEntry& entry_;
+  bool standing_, nonlocal_;
+  Plane plane_;
+  std::vector<Measurement>& all_;
+};
+
 void read_map(const Table& root, Study& study) {
   const Stepping time = read_problem(root, study);
-
   const Table map = root.sub_table("map");
   Plane plane{.first = 0, .delta = read_horizons(map), .N = read_levels(map), .h = {}};
   const std::vector<bool> sources = read_sources(map);
   require_four(map, "delta", plane.delta.size());
   require_four(map, "N", plane.N.size());
   for (const std::int64_t N : plane.N) plane.h.push_back(study.scene->period() / static_cast<double>(N));
-
-  const toml::array& delta_nodes = map.list("delta", "");
   for (const SchemeEntry& entry : read_schemes(root, *study.scene)) {
-    const bool standing = study.scene->standing();
-    const std::string theorem_name = theorem(entry.scheme, standing);
     for (const bool nonlocal : sources) {
-      plane.first = study.series.size();
-      for (std::size_t d = 0; d < plane.delta.size(); ++d) {
-        const double delta = plane.delta[d];
-        Series series{.scheme = entry.scheme,
-                      .path = fmt::format("delta = {:g}", delta),
-                      .delta_text = fmt::format("{:g}", delta),
-                      .nonlocal_source = nonlocal,
-                      .theory = theory_for(entry.scheme, standing, nonlocal, true, delta < plane.h.back()),
-                      .expected = Verdict::confirmed,
-                      .cases = {}};
-        for (const std::int64_t N : plane.N) {
-          series.cases.push_back(make_case(study, time, entry, N, delta, nonlocal, map.place(delta_nodes[d])));
-        }
-        study.series.push_back(std::move(series));
-      }
-
-      const auto measure = [&](Finding finding, auto points) {
-        finding.subject = scheme_label(entry.scheme, standing);
-        const std::string name = finding.label();
-        study.measurements.push_back({name, [prepared = std::move(finding), plane, points](const Results& results) {
-                                        Finding measured = prepared;
-                                        measured.points = points(plane, results);
-                                        measured.remark = first_blow_up(plane, results);
-                                        judge(measured);
-                                        return measured;
-                                      }});
-      };
-      const auto order = [&](const std::string& statement, const std::string& claim, const std::string& check,
-                             const std::string& variable, double theory_order, Verdict promised, auto points) {
-        measure(
-            {.statement = statement,
-             .claim = claim,
-             .check = check,
-             .quantity = nonlocal ? "max error against the nonlocal solution" : "max error against the local solution",
-             .test = Test::order,
-             .variable = variable,
-             .theory_order = theory_order,
-             .promised = promised,
-             .expected = promised},
-            points);
-      };
-      const std::size_t last = plane.delta.size() - 1;
-      const auto at_smallest = [](const Plane& p, const Results& r) { return along_h(p, r, 0); };
-      const auto at_largest = [last](const Plane& p, const Results& r) { return along_h(p, r, last); };
-      if (nonlocal) {
-        const Theory smallest = theory_for(entry.scheme, standing, true, true, plane.delta[0] < plane.h.back());
-        order(theorem_name + " (1)", "h -> 0 at a fixed horizon: the nonlocal solution, O(h)",
-              fmt::format("nonlocal source, delta = {:g}", plane.delta[last]), "h", 1.0, Verdict::confirmed,
-              at_largest);
-        order(smallest.statement, "h -> 0 above the horizon: the nonlocal solution, O(h)",
-              fmt::format("nonlocal source, delta = {:g}", plane.delta[0]), "h", 1.0, Verdict::confirmed, at_smallest);
-        order(theorem_name + " (1), (2)", "h -> 0: O(h) uniformly in the horizon", "nonlocal source, worst horizon",
-              "h", 1.0, Verdict::confirmed, over_horizons);
-      } else {
-        const Theory largest = theory_for(entry.scheme, standing, false, true, plane.delta[last] < plane.h.back());
-        order(theorem_name + " (1)", "h -> 0 at a fixed horizon: not the local solution, the error settles",
-              fmt::format("local source, delta = {:g}", plane.delta[last]), "h", largest.order,
-              largest.order == 0.0 ? Verdict::stagnates : Verdict::confirmed, at_largest);
-        order(theorem_name + " (1), (2)", "h -> 0, then delta -> 0: nonlocal solution to local one, O(delta)",
-              "local source, limits h -> 0", "delta", 1.0, Verdict::confirmed, limits);
-        order(theorem_name + " (2)", "h -> 0 above the horizon: the local solution, O(h)",
-              fmt::format("local source, delta = {:g}", plane.delta[0]), "h", 1.0, Verdict::confirmed, at_smallest);
-        measure({.statement = theorem_name + " (2)",
-                 .claim = "h and delta -> 0 in any relation: the local solution, O(max(h, delta))",
-                 .check = "local source, all horizons and spacings",
-                 .quantity = "max error against the local solution",
-                 .test = Test::surface,
-                 .variable = "max(h,delta)",
-                 .theory_order = 1.0,
-                 .promised = Verdict::confirmed,
-                 .expected = Verdict::confirmed},
-                everywhere);
-      }
+      const Plane errors = add_series(map, time, entry, nonlocal, plane, study);
+      Limits(entry, study.scene->standing(), nonlocal, errors, study.measurements).add();
     }
   }
 }

@@ -38,7 +38,7 @@ double distance(const Field& a, const Field& b, double scale = 1.0) {
 }
 
 /// The parts of the error, relative to all of it.
-void measure(Finding& finding, const Case& c, const Reruns& reruns, const Results& results) {
+void measure_parts(Finding& finding, const Case& c, const Reruns& reruns, const Results& results) {
   const auto result = [&](std::size_t series) -> const CaseResult& { return results[series].results[0]; };
   const CaseResult& base = result(reruns.base);
   const double error = base.error_linf;
@@ -94,6 +94,38 @@ Study read_named(const std::string& name, const std::string& by, const Place& at
   return read_study(file.string());
 }
 
+/// Adds the finest case of a series and its reruns to the study.  @param scaled  its scene in other units
+Reruns add_reruns(Study& study, const std::string& study_of_series, const Series& series,
+                  const std::shared_ptr<const Scene>& scaled) {
+  const Case& c = series.cases.back();
+  const auto rerun = [&](const std::string& how, auto change) {
+    study.series.push_back(series);
+    study.series.back().path = fmt::format("{}, {}, {}", study_of_series, series.path, how);
+    study.series.back().cases = {c};
+    change(study.series.back().cases[0]);
+    return study.series.size() - 1;
+  };
+  Reruns reruns{};
+  reruns.time_order = c.integrator->order;
+  reruns.base = rerun("as it is", [](Case&) {});
+  reruns.halved_step = rerun("step halved", [](Case& changed) { changed.halve_steps(); });
+  // Explicit steps as long as implicit ones would be unstable.
+  if (c.integrator->name != "ssprk3" && !c.integrator->implicit()) {
+    reruns.third_order = rerun("ssprk3", [](Case& changed) {
+      changed.integrator = std::find_if(std::begin(integrators), std::end(integrators),
+                                        [](const Integrator& known) { return known.name == "ssprk3"; });
+    });
+  }
+  if (c.nonlocal_source) {
+    reruns.other_source = rerun("other source rule", [](Case& changed) {
+      if (changed.source_rule == SourceRule::gauss) changed.source_refinement = 2;
+      changed.source_rule = SourceRule::gauss;
+    });
+  }
+  reruns.other_unit = rerun("u in other units", [&](Case& changed) { changed.scene = scaled; });
+  return reruns;
+}
+
 void read_pollution(const Table& root, Study& study) {
   const Table table = root.sub_table("pollution");
   for (const toml::node& item : table.list("studies", "studies = [\"fig1.toml\"]")) {
@@ -116,48 +148,16 @@ void read_pollution(const Table& root, Study& study) {
     for (const Series& series : named.series) {
       if (series.expected == Verdict::unstable) continue;
       const Case& c = series.cases.back();
-      const auto rerun = [&](const std::string& how, auto change) {
-        study.series.push_back(series);
-        study.series.back().path = fmt::format("{}, {}, {}", named.name, series.path, how);
-        study.series.back().cases = {c};
-        change(study.series.back().cases[0]);
-        return study.series.size() - 1;
-      };
-      Reruns reruns{};
-      reruns.time_order = c.integrator->order;
-      reruns.base = rerun("as it is", [](Case&) {});
-      reruns.halved_step = rerun("step halved", [](Case& changed) { changed.halve_steps(); });
-      // Explicit steps as long as implicit ones would be unstable.
-      if (c.integrator->name != "ssprk3" && !c.integrator->implicit()) {
-        reruns.third_order = rerun("ssprk3", [](Case& changed) {
-          changed.integrator = std::find_if(std::begin(integrators), std::end(integrators),
-                                            [](const Integrator& known) { return known.name == "ssprk3"; });
-        });
-      }
-      if (c.nonlocal_source) {
-        reruns.other_source = rerun("other source rule", [](Case& changed) {
-          if (changed.source_rule == SourceRule::gauss) changed.source_refinement = 2;
-          changed.source_rule = SourceRule::gauss;
-        });
-      }
-      reruns.other_unit = rerun("u in other units", [&](Case& changed) { changed.scene = scaled; });
-
-      Finding finding{
-          .statement = "error budget",
-          .claim = "error = space + time; source, round-off and what is unknown of time are less than 1 % of it",
-          .subject = series.label(),
-          .check = fmt::format("{}, N = {}", named.name, c.N),
-          .quantity = "max difference of the fields over the max error",
-          .test = Test::bounds,
-          .promised = Verdict::holds,
-          .expected = Verdict::holds};
-      const std::string label = finding.label();
-      study.measurements.push_back({label, [prepared = std::move(finding), c, reruns](const Results& results) {
-                                      Finding measured = prepared;
-                                      measure(measured, c, reruns, results);
-                                      judge(measured);
-                                      return measured;
-                                    }});
+      const Reruns reruns = add_reruns(study, named.name, series, scaled);
+      study.measurements.push_back(
+          {{.statement = "error budget",
+            .claim = "error = space + time; source, round-off and what is unknown of time are less than 1 % of it",
+            .subject = series.label(),
+            .coordinates = {{"study", named.name},
+                            {"N", static_cast<double>(c.N), fmt::format("N = {}", c.N)},
+                            unspoken({"source", series.nonlocal_source ? "nonlocal" : "local"})},
+            .quantity = "max difference of the fields over the max error"},
+           [c, reruns](Finding& finding, const Results& results) { measure_parts(finding, c, reruns, results); }});
     }
   }
 }

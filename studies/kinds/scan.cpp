@@ -1,6 +1,7 @@
 #include "reports/judging/scan.hpp"
 
-#include <fmt/format.h>
+#include <limits>
+#include <string>
 
 #include "studies/claims/once.hpp"
 #include "studies/kinds/kinds.hpp"
@@ -9,31 +10,51 @@ namespace acstudy {
 
 namespace {
 
-constexpr double most_false = 0.001, least_decided = 0.95;
+/// A share of the verdicts on all series, or on those of some printing.
+struct Share {
+  const char *subject, *claim, *quantity;
+  std::int64_t ScanRow::*part;
+  std::int64_t ScanRow::*of;
+  double lower, upper;
 
-double share(std::int64_t part, std::int64_t of) { return static_cast<double>(part) / static_cast<double>(of); }
+  Check check(const std::string& on) const {
+    return {.statement = "scan",
+            .claim = claim,
+            .subject = subject,
+            .coordinates = {{"series", on}},
+            .quantity = quantity,
+            .variable = "levels"};
+  }
+  Point point(const ScanRow& row) const {
+    return {.N = row.*of,
+            .variable = static_cast<double>(row.levels),
+            .value = static_cast<double>(row.*part) / static_cast<double>(row.*of)};
+  }
+  Point bounded(const ScanRow& row) const {
+    Point one = point(row);
+    one.lower = lower;
+    one.upper = upper;
+    return one;
+  }
+};
 
-Finding false_verdicts(const std::string& subject) {
-  return {.statement = "scan",
-          .claim = "firm verdicts pass what departs, or condemn what holds, less than once in a thousand times",
-          .subject = subject,
-          .quantity = "share of verdicts that are firm and false",
-          .test = Test::bounds,
-          .variable = "levels",
-          .promised = Verdict::holds,
-          .expected = Verdict::holds};
-}
-
-Finding decided_verdicts(const std::string& subject) {
-  return {.statement = "scan",
-          .claim = "where the last pairwise order shows the truth, 95 verdicts in 100 are not inconclusive",
-          .subject = subject,
-          .quantity = "share of verdicts that are not inconclusive",
-          .test = Test::bounds,
-          .variable = "levels",
-          .promised = Verdict::holds,
-          .expected = Verdict::holds};
-}
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr Share false_verdicts = {
+    "false firm verdicts",
+    "firm verdicts pass what departs, or condemn what holds, less than once in a thousand times",
+    "share of verdicts that are firm and false",
+    &ScanRow::false_firm,
+    &ScanRow::judged,
+    -unbounded,
+    0.001};
+constexpr Share decided_verdicts = {
+    "decided verdicts",
+    "where the last pairwise order shows the truth, 95 verdicts in 100 are not inconclusive",
+    "share of verdicts that are not inconclusive",
+    &ScanRow::decided,
+    &ScanRow::decidable,
+    0.95,
+    unbounded};
 
 /// A judge that asks only whether the interval of a power law contains the order.
 std::vector<Verdict> judge_by_power_law(LevelView levels, const std::vector<double>& orders) {
@@ -56,58 +77,35 @@ void read_scan(const Table& root, Study& study) {
   const Table table = root.sub_table("scan");
   const auto every = table.whole("every", table.need("every", "every = 23"), 1, 10'000);
   const auto seed = static_cast<std::uint64_t>(table.whole("seed", table.need("seed", "seed = 1"), 0, 1'000'000'000));
-  const auto measure = [&](Finding finding, auto points) {
-    const std::string name = finding.label();
-    study.measurements.push_back({name, [finding = std::move(finding), points](const auto&) {
-                                    Finding measured = finding;
-                                    points(measured);
-                                    judge(measured);
-                                    return measured;
-                                  }});
-  };
-  const auto put_false = [](Finding& finding, const ScanRow& row, bool bounded) {
-    Point point{
-        .N = row.judged, .variable = static_cast<double>(row.levels), .value = share(row.false_firm, row.judged)};
-    if (bounded) point.upper = most_false;
-    finding.points.push_back(point);
-  };
-  const auto put_decided = [](Finding& finding, const ScanRow& row, bool bounded) {
-    Point point{
-        .N = row.decidable, .variable = static_cast<double>(row.levels), .value = share(row.decided, row.decidable)};
-    if (bounded) point.lower = least_decided;
-    finding.points.push_back(point);
-  };
-
   const auto scan = once([=] { return scan_two_terms(every, seed); });
-  const auto all = [&](Finding finding, auto put) {
-    finding.check = "all series";
-    measure(finding, [=](Finding& measured) { put(measured, scan().all(), true); });
-  };
-  all(false_verdicts("false firm verdicts"), put_false);
-  all(decided_verdicts("decided verdicts"), put_decided);
+  for (const Share& share : {false_verdicts, decided_verdicts}) {
+    study.measurements.emplace_back(share.check("all series"),
+                                    [=](Finding& finding) { finding.points.push_back(share.bounded(scan().all())); });
+  }
   for (const Printing printing : printings) {
-    const auto by_levels = [&](Finding finding, auto put) {
-      finding.check = name_of(printing);
-      finding.expect_no_bound();
-      measure(finding, [=](Finding& measured) {
+    for (const Share& share : {false_verdicts, decided_verdicts}) {
+      Check check = share.check(std::string(name_of(printing)));
+      check.promised = check.expected = Verdict::inconclusive;  // for the record: theory bounds none of them
+      study.measurements.emplace_back(check, [=](Finding& finding) {
         for (const ScanRow& row : scan().rows) {
-          if (row.printing == printing) put(measured, row, false);
+          if (row.printing == printing) finding.points.push_back(share.point(row));
         }
       });
-    };
-    by_levels(false_verdicts("false firm verdicts"), put_false);
-    by_levels(decided_verdicts("decided verdicts"), put_decided);
+    }
   }
 
-  const auto control = [&](Finding finding, const JudgeOrders& judge, auto put, const char* remark) {
-    finding.check = "all series";
-    finding.expected = Verdict::violated;
-    finding.remark = remark;
-    measure(finding, [=](Finding& measured) { put(measured, scan_two_terms(every, seed, judge).all(), true); });
+  const auto add_control = [&](const Share& share, const char* subject, const JudgeOrders& judge, const char* why) {
+    Check check = share.check("all series");
+    check.subject = subject;
+    check.expected = Verdict::violated;
+    check.remark = why;
+    study.measurements.emplace_back(check, [=](Finding& finding) {
+      finding.points.push_back(share.bounded(scan_two_terms(every, seed, judge).all()));
+    });
   };
-  control(false_verdicts("interval of the power law (control)"), judge_by_power_law, put_false,
-          "An interval that takes no correction into account is firm where orders still move.");
-  control(decided_verdicts("never decides (control)"), never_decide, put_decided, "Who says nothing is never wrong.");
+  add_control(false_verdicts, "interval of the power law (control)", judge_by_power_law,
+              "An interval that takes no correction into account is firm where orders still move.");
+  add_control(decided_verdicts, "never decides (control)", never_decide, "Who says nothing is never wrong.");
 }
 
 constexpr Key scan_keys[] = {

@@ -54,55 +54,52 @@ Curves read_curves(const Table& table, const Scene& scene, std::int64_t N) {
   return curves;
 }
 
+void require_viscosity(const Subject& subject, const Place& at) {
+  if (subject.scheme.model->viscous && subject.mu == 0.0) {
+    at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
+  }
+}
+
+std::vector<Subject> read_unstable_controls(const Table& root, const std::shared_ptr<const Scene>& scene) {
+  std::vector<Subject> controls;
+  if (root.find("control") == nullptr) return controls;
+  for (const Table& control : root.array_of_tables("control")) {
+    const SchemeEntry entry = read_control(control, *scene);
+    const std::string_view name = entry.scheme.control->name;
+    if (std::find(unstable_controls.begin(), unstable_controls.end(), name) == unstable_controls.end()) {
+      control.place(*control.find("name"))
+          .fail(fmt::format("name = \"{}\"; only controls that no step of forward Euler keeps stable belong here: {}",
+                            name, fmt::join(unstable_controls, ", ")));
+    }
+    controls.push_back({entry.scheme, entry.mu, scene, Arrangement::uniform});
+    require_viscosity(controls.back(), control.place());
+  }
+  return controls;
+}
+
 void read_stability_map(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
   const Scene& scene = *study.scene;
   const Table table = root.sub_table("stability-map");
   const StabilityGrid grid = read_grid(table, scene);
   const std::vector<const Integrator*> chosen = read_integrators(table);
-  std::vector<Subject> subjects = read_subjects(root, study.scene);
+  const std::vector<Subject> subjects = read_subjects(root, study.scene);
   if (scene.T() == 0.0) {
     root.place(*root.find("scene")).fail("T = 0; growth over T needs time: write T = 1");
   }
-  const auto require_viscosity = [](const SchemeChoice& scheme, double mu, const Place& at) {
-    if (scheme.model == 2 && mu == 0.0) at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
-  };
-  for (const Subject& subject : subjects)
-    require_viscosity(subject.scheme, subject.mu, root.place(*root.find("scheme")));
-  std::vector<Subject> controls;
-  if (root.find("control") != nullptr) {
-    for (const Table& control : root.array_of_tables("control")) {
-      const SchemeEntry entry = read_control(control, scene);
-      if (std::find(unstable_controls.begin(), unstable_controls.end(), entry.scheme.control) ==
-          unstable_controls.end()) {
-        control.place(*control.find("name"))
-            .fail(fmt::format("name = \"{}\"; only controls that no step of forward Euler keeps stable belong here: {}",
-                              entry.scheme.control, fmt::join(unstable_controls, ", ")));
-      }
-      require_viscosity(entry.scheme, entry.mu, control.place());
-      controls.push_back({entry.scheme, entry.mu, study.scene, Arrangement::uniform});
-    }
-  }
+  for (const Subject& subject : subjects) require_viscosity(subject, root.place(*root.find("scheme")));
+  const std::vector<Subject> controls = read_unstable_controls(root, study.scene);
 
-  const auto measure = [&](const std::string& name, std::function<Finding()> take) {
-    study.measurements.push_back({name, [take = std::move(take)](const auto&) { return take(); }});
-  };
-  const auto name_of_measurement = [](const Subject& subject, const Integrator& integrator, const std::string& what) {
-    return fmt::format("{}; {}, {}: {}", scheme_label(subject.scheme, subject.scene->standing()),
-                       name_of(subject.arrangement), integrator.name, what);
-  };
+  std::vector<Measurement>& all = study.measurements;
   const auto examine = [&](const Subject& subject, const Integrator& integrator) {
     for (const Measure what : {Measure::norm, Measure::spectral, Measure::growth}) {
-      measure(name_of_measurement(subject, integrator, std::string("map, ") + quantity_of(what)),
-              [=, &integrator] { return stability_map(subject, integrator, grid, what); });
+      all.push_back(stability_map(subject, integrator, grid, what));
     }
     for (const Measure what : {Measure::norm, Measure::spectral}) {
-      measure(name_of_measurement(subject, integrator, std::string("sharp limit, ") + quantity_of(what)),
-              [=, &integrator] { return sharp_limit(subject, integrator, grid, what); });
+      all.push_back(sharp_limit(subject, integrator, grid, what));
     }
-    if (subject.arrangement == Arrangement::uniform && subject.scheme.control.empty()) {
-      measure(name_of_measurement(subject, integrator, "smallest entry of a step"),
-              [=, &integrator] { return smallest_entry(subject, integrator, grid); });
+    if (subject.arrangement == Arrangement::uniform && subject.scheme.control == nullptr) {
+      all.push_back(smallest_entry(subject, integrator, grid));
     }
   };
   for (const Subject& subject : subjects) {
@@ -115,8 +112,7 @@ void read_stability_map(const Table& root, Study& study) {
   const Curves curves = read_curves(root.sub_table("growth"), scene, grid.N);
   const auto draw = [&](const Subject& subject, const Integrator& integrator) {
     for (const double cfl : curves.cfl) {
-      measure(name_of_measurement(subject, integrator, fmt::format("growth curve, CFL {:g}", cfl)),
-              [=, &integrator] { return growth_curve(subject, integrator, grid.N, curves.ratio, cfl); });
+      all.push_back(growth_curve(subject, integrator, grid.N, curves.ratio, cfl));
     }
   };
   for (const Subject& subject : subjects) {

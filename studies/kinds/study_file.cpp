@@ -36,6 +36,21 @@ void allow_keys(const toml::table& document, const Kind& kind, const std::string
 
 }  // namespace
 
+namespace {
+
+/// A name is all that a reader, a gate or a CI service tells a check by.
+void require_names(Study& study) {
+  std::vector<Check*> checks;
+  for (Measurement& measurement : study.measurements) checks.push_back(&measurement.check);
+  if (const std::string name = tell_apart(checks); !name.empty()) {
+    throw InputError(
+        fmt::format("{}: two checks have the name {}; leave one of them out, or give its path another name", study.file,
+                    in_quotes(name)));
+  }
+}
+
+}  // namespace
+
 Study parse_study(const std::string& text, const std::string& file) {
   toml::table document;
   try {
@@ -81,6 +96,7 @@ Study parse_study(const std::string& text, const std::string& file) {
   study.title = header.find("title") != nullptr ? header.text("title", "title = \"...\"") : study.name;
   allow_keys(document, **kind, file);
   (*kind)->read(root, study);
+  require_names(study);
   return study;
 }
 

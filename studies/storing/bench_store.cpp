@@ -4,11 +4,12 @@
 
 #include <map>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
 #include "studies/storing/files.hpp"
-#include "studies/storing/h5.hpp"
+#include "studies/storing/h5_columns.hpp"
 #include "studies/storing/json_form.hpp"
 #include "studies/storing/keys.hpp"
 
@@ -21,42 +22,19 @@ using json = nlohmann::ordered_json;
 
 constexpr const char* format = "acstudy-bench-1";
 
-/// Visits the times of a sample with the names of their columns.
-template <class S, class Visit>
-void for_each_time(S& sample, Visit&& visit) {
-  visit("seconds", sample.seconds);
-  visit("positions_seconds", sample.positions_seconds);
-  visit("weights_seconds", sample.weights_seconds);
-  visit("pairs_seconds", sample.pairs_seconds);
-  visit("source_seconds", sample.source_seconds);
-}
-
-/// Visits the work of a case, which is the same in every run.
+/// Visits what a bench keeps of the result of a case: what is the same in every run, but no fields.
 template <class Result, class Visit>
-void for_each_count(Result& result, Visit&& visit) {
-  visit("pairs", result.work.pairs);
-  visit("weight_builds", result.work.weight_builds);
-  visit("quadrature_points", result.quadrature_points);
-  visit("velocity_evaluations", result.work.velocity_evaluations);
-  visit("flow_evaluations", result.flow_evaluations);
+void for_each_kept(Result& result, Visit&& visit) {
+  CaseResult::stored(result, [&]<class T>(const Stored& as, T& value) {
+    if constexpr (!std::is_same_v<std::remove_const_t<T>, std::vector<double>>) {
+      if (!as.timed) visit(as, value);
+    }
+  });
 }
 
-/// The columns of samples by name.
-struct Columns {
-  std::vector<std::int64_t> round, session;
-  std::map<std::string, std::vector<double>> times;
-};
-
-Columns columns_of(const std::vector<Sample>& samples) {
-  Columns columns;
-  const Sample nothing;
-  for_each_time(nothing, [&](const char* name, double) { columns.times[name]; });
-  for (const Sample& sample : samples) {
-    columns.round.push_back(sample.round);
-    columns.session.push_back(sample.session);
-    for_each_time(sample, [&](const char* name, double value) { columns.times[name].push_back(value); });
-  }
-  return columns;
+template <class Record, class Visit>
+void for_each_column(Record& sample, Visit&& visit) {
+  Sample::stored(sample, [&](const Stored& as, auto& value) { visit(as.name, value); });
 }
 
 /// Where the case that is number i of the bench stands in the files; those that have not run do not.
@@ -86,11 +64,13 @@ void for_each_attribute(const BenchSeries& planned, Visit&& visit) {
   const Case& first = series.cases.front();
   visit("study", planned.study->name);
   visit("title", planned.study->title);
-  visit("model", static_cast<std::int64_t>(series.scheme.model));
+  visit("model", static_cast<std::int64_t>(series.scheme.model->number));
   visit("divergence", std::string(series.scheme.nonlocal_divergence ? "nonlocal" : "local"));
   visit("kernel", series.scheme.kernel.name);
-  if (series.scheme.kernel.name == "power") visit("alpha", series.scheme.kernel.alpha);
-  if (series.scheme.model == 2) visit("mu", first.mu);
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    visit(std::string(parameter->name()).c_str(), series.scheme.kernel.parameter);
+  }
+  if (series.scheme.model->viscous) visit("mu", first.mu);
   visit("path", series.path);
   visit("delta", series.delta_text);
   visit("source", std::string(series.nonlocal_source ? "nonlocal" : "local"));
@@ -105,24 +85,26 @@ void for_each_attribute(const BenchSeries& planned, Visit&& visit) {
 }
 
 json case_json(const BenchCase& one) {
-  json out = {{"N", one.c->N},
-              {"h", one.c->h},
-              {"delta", one.c->delta},
-              {"dt", one.result.dt},
-              {"steps", one.result.steps},
-              {"stages", one.c->integrator->stage_count()},
-              {"threads", one.threads},
-              {"error_linf", one.result.error_linf},
-              {"failure", one.result.failure.empty() ? one.result.blow_up : one.result.failure}};
-  for_each_count(one.result, [&](const char* name, std::int64_t count) { out["work"][name] = count; });
-  if (one.samples.empty()) return out;
-  const Columns columns = columns_of(one.samples);
-  for (const auto& [name, values] : columns.times) {
+  json out;
+  const auto put = [&out](const Stored& as, const auto& value) { json_form::put(out, as, value); };
+  one.c->stored(put);
+  out["stages"] = one.c->integrator->stage_count();
+  out["threads"] = one.threads;
+  for_each_kept(one.result, put);
+  out["failure"] = one.result.failure.empty() ? one.result.blow_up : one.result.failure;
+  json samples;
+  std::map<std::string, std::vector<double>> times;
+  for (const Sample& sample : one.samples) {
+    for_each_column(sample, [&]<class T>(const char* name, const T& value) {
+      samples[name].push_back(value);
+      if constexpr (std::is_same_v<T, double>) times[name].push_back(value);
+    });
+  }
+  for (const auto& [name, values] : times) {
     const Spread spread = spread_of(values);
     out[name] = {{"median", spread.median}, {"minimum", spread.minimum}, {"deviation", spread.deviation}};
   }
-  out["samples"] = {{"round", columns.round}, {"session", columns.session}};
-  for (const auto& [name, values] : columns.times) out["samples"][name] = values;
+  if (!one.samples.empty()) out["samples"] = samples;
   return out;
 }
 
@@ -149,23 +131,12 @@ std::string bench_json(const Bench& bench, const BenchOptions& options, const Pr
 
 void write_case(hid_t parent, const std::string& name, const BenchCase& one) {
   const h5::Handle group = h5::create_group(parent, name);
+  const auto write = [&](const Stored& as, const auto& value) { h5::write(group, as.column(), value); };
   h5::write_text(group, "key", bench_key(one));
-  h5::write_text(group, "failure", one.result.failure);
-  h5::write_text(group, "blow_up", one.result.blow_up);
-  h5::write_number(group, "N", one.c->N);
-  h5::write_number(group, "h", one.c->h);
-  h5::write_number(group, "delta", one.c->delta);
-  h5::write_number(group, "dt", one.result.dt);
-  h5::write_number(group, "error_linf", one.result.error_linf);
-  h5::write_number(group, "steps", one.result.steps);
   h5::write_number<std::int64_t>(group, "threads", one.threads);
-  for_each_count(one.result, [&](const char* count, std::int64_t value) {
-    h5::write_number(group, "work_" + std::string(count), value);
-  });
-  const Columns columns = columns_of(one.samples);
-  h5::write_column<std::int64_t>(group, "round", columns.round);
-  h5::write_column<std::int64_t>(group, "session", columns.session);
-  for (const auto& [column, values] : columns.times) h5::write_column<double>(group, column, values);
+  one.c->stored(write);
+  for_each_kept(one.result, write);
+  h5::write_columns(group, one.samples, Sample{}, [](const Sample& s, auto&& visit) { for_each_column(s, visit); });
 }
 
 std::vector<char> bench_h5(const Bench& bench, const BenchOptions& options, const Provenance& provenance,
@@ -181,50 +152,18 @@ std::vector<char> bench_h5(const Bench& bench, const BenchOptions& options, cons
   const h5::Handle all = h5::create_group(root, "series"), cases = h5::create_group(root, "cases");
   for (std::size_t i = 0; i < bench.series.size(); ++i) {
     const h5::Handle group = h5::create_group(all, fmt::format("{:03}", i));
-    for_each_attribute(bench.series[i], [&]<class T>(const char* name, const T& value) {
-      if constexpr (std::is_same_v<T, std::string>) {
-        h5::write_text(group, name, value);
-      } else {
-        h5::write_number(group, name, value);
-      }
-    });
+    for_each_attribute(bench.series[i], [&](const char* name, const auto& value) { h5::write(group, name, value); });
     h5::write_column<std::int64_t>(group, "cases", cases_of(bench.series[i], places));
   }
   for (const auto& [i, place] : places) write_case(cases, fmt::format("{:04}", place), bench.cases[i]);
   return h5::image(root);
 }
 
-std::vector<Sample> read_samples(hid_t group) {
-  const auto round = h5::read_column<std::int64_t>(group, "round"),
-             session = h5::read_column<std::int64_t>(group, "session");
-  std::vector<Sample> samples(round.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].round = round[i];
-    samples[i].session = session.at(i);
-  }
-  const Sample nothing;
-  for_each_time(nothing, [&](const char* name, double) {
-    const auto column = h5::read_column<double>(group, name);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      for_each_time(samples[i], [&](const std::string& time, double& value) {
-        if (time == name) value = column.at(i);
-      });
-    }
-  });
-  return samples;
-}
-
 void read_case(hid_t group, BenchCase& one) {
   one.result.completed = true;
-  one.result.failure = h5::read_text(group, "failure");
-  one.result.blow_up = h5::read_text(group, "blow_up");
-  one.result.dt = h5::read_number(group, "dt");
-  one.result.error_linf = h5::read_number(group, "error_linf");
-  one.result.steps = static_cast<std::int64_t>(h5::read_number(group, "steps"));
-  for_each_count(one.result, [&](const char* name, std::int64_t& value) {
-    value = static_cast<std::int64_t>(h5::read_number(group, "work_" + std::string(name)));
-  });
-  one.samples = read_samples(group);
+  for_each_kept(one.result, [&](const Stored& as, auto& value) { h5::read(group, as.column(), value); });
+  one.samples.resize(h5::read_column<std::int64_t>(group, "round").size());
+  h5::read_columns(group, one.samples, [](Sample& s, auto&& visit) { for_each_column(s, visit); });
 }
 
 }  // namespace

@@ -28,7 +28,6 @@ void for_each_text(F& finding, Visit&& visit) {
   visit("statement", finding.statement);
   visit("claim", finding.claim);
   visit("subject", finding.subject);
-  visit("check", finding.check);
   visit("quantity", finding.quantity);
   visit("variable_name", finding.variable);
   visit("remark", finding.remark);
@@ -62,6 +61,15 @@ void write_surface(hid_t group, const SurfaceFit& fit) {
 void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
   const h5::Handle group = h5::create_group(parent, group_name);
   for_each_text(finding, [&](const char* name, const std::string& text) { h5::write_text(group, name, text); });
+  h5::write_text(group, "check", finding.conditions());
+  const h5::Handle coordinates = h5::create_group(group, "coordinates");
+  for (const Coordinate& one : finding.coordinates) {
+    if (const auto* const text = std::get_if<std::string>(&one.value)) {
+      h5::write_text(coordinates, one.name, *text);
+    } else {
+      h5::write_number(coordinates, one.name, std::get<double>(one.value));
+    }
+  }
   h5::write_text(group, "test", std::string(name_of(finding.test)));
   h5::write_number(group, "theory_order", finding.theory_order);
   h5::write_number(group, "scale", finding.known.scale.value_or(not_estimated));
@@ -91,6 +99,7 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
 Finding read_finding(hid_t group) {
   Finding finding{};
   for_each_text(finding, [&](const char* name, std::string& text) { text = h5::read_text(group, name); });
+  finding.coordinates = {{"check", h5::read_text(group, "check")}};
   finding.test = test_from(h5::read_text(group, "test")).value();
   finding.theory_order = h5::read_number(group, "theory_order");
   const auto known = [&](const char* name) {

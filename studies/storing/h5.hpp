@@ -140,6 +140,30 @@ std::vector<T> read_column(hid_t group, const std::string& name) {
   return values;
 }
 
+/// A number or a text as an attribute, an array as a column.
+template <class T>
+void write(hid_t object, const std::string& name, const T& value) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    write_text(object, name, value);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    write_number(object, name, value);
+  } else {
+    write_column<typename T::value_type>(object, name, value);
+  }
+}
+
+/// What `write` has written. A value that is absent, as in files of older versions, stays as it is.
+template <class T>
+void read(hid_t object, const std::string& name, T& value) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    if (H5Aexists(object, name.c_str()) > 0) value = read_text(object, name);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    if (H5Aexists(object, name.c_str()) > 0) value = read_number<T>(object, name);
+  } else {
+    if (H5Lexists(object, name.c_str(), H5P_DEFAULT) > 0) value = read_column<typename T::value_type>(object, name);
+  }
+}
+
 /// Names of the groups directly below `group`.
 inline std::vector<std::string> group_names(hid_t group) {
   H5G_info_t info;

@@ -16,7 +16,7 @@ std::string findings_key(const Study& study) {
     runs = checksum(series.label() + series.theory.statement + std::string(name_of(series.expected)), runs);
     for (const Case& c : series.cases) runs = checksum(storage_key(c), runs);
   }
-  for (const Measurement& measurement : study.measurements) runs = checksum(measurement.name, runs);
+  for (const Measurement& measurement : study.measurements) runs = checksum(measurement.check.label(), runs);
   return fmt::format("runs={:016x}|{}|measurements={}", runs, study.text, measurements_fingerprint());
 }
 

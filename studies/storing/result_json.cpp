@@ -33,49 +33,10 @@ json observed_json(const Judgement& judgement) {
 }
 
 json case_json(const Case& c, const CaseResult& r) {
-  json one = {{"N", c.N},
-              {"h", c.h},
-              {"delta", c.delta},
-              {"dt", r.dt},
-              {"steps", r.steps},
-              {"error_linf", r.error_linf},
-              {"solution_linf", r.solution_linf},
-              {"error_l1", r.error_l1},
-              {"error_l2", r.error_l2},
-              {"seconds", r.seconds},
-              {"seconds_low", r.seconds_low},
-              {"seconds_high", r.seconds_high},
-              {"repeats", r.repeats},
-              {"positions_seconds", r.positions_seconds},
-              {"weights_seconds", r.weights_seconds},
-              {"pairs_seconds", r.pairs_seconds},
-              {"source_seconds", r.source_seconds},
-              {"work",
-               {{"pairs", r.work.pairs},
-                {"weight_builds", r.work.weight_builds},
-                {"quadrature_points", r.quadrature_points},
-                {"velocity_evaluations", r.work.velocity_evaluations},
-                {"flow_evaluations", r.flow_evaluations}}}};
-  if (r.dt_smallest != r.dt) one["dt_smallest"] = r.dt_smallest;
-  if (const StepsAgainstBound& bound = r.against_bound; bound.largest > 0.0) {
-    one["bound"] = {{"largest", bound.largest}};
-    if (bound.first_step > 0) {
-      one["bound"]["first_step"] = bound.first_step;
-      one["bound"]["first_time"] = bound.first_time;
-      one["bound"]["first_place"] = bound.first_place;
-    }
-  }
-  if (!r.blow_up.empty() || !r.failure.empty()) {
-    one["last"] = {{"step", r.last.step},
-                   {"time", r.last.time},
-                   {"particle", r.last.particle},
-                   {"place", r.last.place},
-                   {"error_linf", r.last.error_linf},
-                   {"error_l1", r.last.error_l1},
-                   {"error_l2", r.last.error_l2}};
-  }
-  if (!r.blow_up.empty()) one["blow_up"] = r.blow_up;
-  if (!r.failure.empty()) one["failure"] = r.failure;
+  json one;
+  const auto put = [&one](const Stored& as, const auto& value) { json_form::put(one, as, value); };
+  c.stored(put);
+  CaseResult::stored(r, put);
   return one;
 }
 
@@ -83,11 +44,13 @@ json series_json(const SeriesResult& result) {
   const Series& series = *result.series;
   const Judgement& judgement = result.judgement;
   json out;
-  out["model"] = series.scheme.model;
+  out["model"] = series.scheme.model->number;
   out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
   out["kernel"] = series.scheme.kernel.name;
-  if (series.scheme.kernel.name == "power") out["alpha"] = series.scheme.kernel.alpha;
-  if (series.scheme.model == 2) out["mu"] = series.cases.front().mu;
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    out[std::string(parameter->name())] = series.scheme.kernel.parameter;
+  }
+  if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
   out["path"] = series.path;
   out["delta"] = series.delta_text;
   out["source"] = series.nonlocal_source ? "nonlocal" : "local";
@@ -133,8 +96,12 @@ json surface_json(const SurfaceFit& fit) {
 
 json finding_json(const Finding& finding) {
   const Judgement& judgement = finding.judgement;
-  json out = {{"statement", finding.statement}, {"claim", finding.claim},       {"subject", finding.subject},
-              {"check", finding.check},         {"quantity", finding.quantity}, {"test", name_of(finding.test)}};
+  json out = {{"statement", finding.statement}, {"claim", finding.claim},        {"subject", finding.subject},
+              {"check", finding.conditions()},  {"coordinates", json::object()}, {"quantity", finding.quantity},
+              {"test", name_of(finding.test)}};
+  for (const Coordinate& one : finding.coordinates) {
+    std::visit([&](const auto& value) { out["coordinates"][one.name] = value; }, one.value);
+  }
   if (!finding.remark.empty()) out["remark"] = finding.remark;
   if (!finding.failure.empty()) out["failure"] = finding.failure;
   out["variable"] = finding.variable;
@@ -182,7 +149,7 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   finding.statement = one.at("statement").get<std::string>();
   finding.subject = one.at("subject").get<std::string>();
   finding.failure = one.value("failure", "");
-  finding.check = one.at("check").get<std::string>();
+  finding.coordinates = {{"check", one.at("check").get<std::string>()}};
   const auto test = test_from(one.at("test").get<std::string>());
   if (!test) throw std::invalid_argument("unknown test " + one.at("test").dump());
   finding.test = *test;
@@ -216,8 +183,13 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   SeriesRecord record;
   record.study = study;
   const bool standing = series.value("motion", std::string("moving")) == "standing";
-  const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
-  const SchemeChoice scheme{.model = series.at("model").get<int>(),
+  KernelChoice kernel{series.at("kernel").get<std::string>()};
+  if (const NamedKernel* const row = find_kernel(kernel.name); row != nullptr && row->parameter) {
+    kernel.parameter = series.value(std::string(row->parameter->name()), 0.0);
+  }
+  const ModelCard* const model = find_model(series.at("model").get<std::int64_t>());
+  if (model == nullptr) throw std::invalid_argument("model = " + series.at("model").dump() + " is none");
+  const SchemeChoice scheme{.model = model,
                             .nonlocal_divergence = series.at("divergence").get<std::string>() == "nonlocal",
                             .kernel = kernel};
   record.label = scheme_label(scheme, standing) + ", " + series.at("path").get<std::string>();

@@ -165,7 +165,7 @@ class WorkPrecision(BenchTest):
             self.bench(text, "--runs", "1", "--least-seconds", "0", "--fresh")
             bench = bench_results.read_bench(self.folder / "out" / "bench.json")
             N, neighbors, pairs = (np.concatenate([of(curve) for curve in bench.curves]) for of in (
-                lambda curve: curve.N, lambda curve: curve.neighbors - 0.5, lambda curve: curve.work["pairs"]))
+                lambda curve: curve.N, lambda curve: curve.neighbors - 0.5, lambda curve: curve.pairs))
             law = work_precision.fit_law(N, neighbors, pairs)
             self.assertAlmostEqual(law.a, 2, delta=0.05)
             self.assertAlmostEqual(law.b, 1, delta=0.05)

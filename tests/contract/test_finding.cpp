@@ -9,7 +9,7 @@ using namespace acstudy;
 namespace {
 
 Finding bounded(std::vector<Point> points) {
-  Finding finding{.test = Test::bounds, .promised = Verdict::holds, .expected = Verdict::holds};
+  Finding finding{};
   finding.points = std::move(points);
   judge(finding);
   return finding;
@@ -57,7 +57,7 @@ TEST_CASE("one point out of its bounds decides, wherever it stands, and is named
 
 TEST_CASE("a finding whose values have theory's order is confirmed, and one that must fail raises its alarm") {
   Finding finding{
-      .test = Test::order, .theory_order = 1.0, .promised = Verdict::confirmed, .expected = Verdict::confirmed};
+      Check{.test = Test::order, .theory_order = 1.0, .promised = Verdict::confirmed, .expected = Verdict::confirmed}};
   for (const double h : {0.1, 0.05, 0.025, 0.0125}) finding.points.push_back({.variable = h, .value = 3.0 * h});
   judge(finding);
   CHECK(finding.as_expected());
@@ -72,7 +72,7 @@ TEST_CASE("a finding whose values have theory's order is confirmed, and one that
 
 TEST_CASE("a bound on an order is met by theory's order, by a higher one and by scatter about it, not by a lower one") {
   const auto rated = [](auto error, double theory) {
-    Finding finding{.test = Test::rate, .theory_order = theory, .promised = Verdict::holds, .expected = Verdict::holds};
+    Finding finding{Check{.test = Test::rate, .theory_order = theory}};
     for (const double h : {0.1, 0.05, 0.025, 0.0125}) finding.points.push_back({.variable = h, .value = error(h)});
     judge(finding);
     return finding.judgement.verdict;
@@ -94,8 +94,30 @@ TEST_CASE("a bound on an order is met by theory's order, by a higher one and by 
   CHECK(rated([](double h) { return 1.0 / h; }, 1.0) == Verdict::diverges);
   CHECK(rated([](double h) { return h > 0.02 ? h : NAN; }, 1.0) == Verdict::unstable);
 
-  Finding standstill{.test = Test::rate, .theory_order = 1.0, .promised = Verdict::holds, .expected = Verdict::holds};
+  Finding standstill{Check{.test = Test::rate, .theory_order = 1.0}};
   for (const double error : {0.4, 0.2, 0.1, 0.05}) standstill.points.push_back({.variable = 1.0, .value = error});
   judge(standstill);
   CHECK(standstill.judgement.verdict == Verdict::inconclusive);
+}
+
+TEST_CASE("a check is named by statement, subject and spoken coordinates; the unspoken tell apart what has one name") {
+  const Check check{.statement = "Lemma 2.4",
+                    .subject = "Model II, hat",
+                    .coordinates = {{"arrangement", "jittered"}, at_cfl(1.5), unspoken({"mu", 2.0, "mu = 2"})}};
+  CHECK(check.label() == "Lemma 2.4: Model II, hat; jittered, CFL 1.5");
+  Check other = check, third = check;
+  other.coordinates[2] = unspoken({"mu", 3.0, "mu = 3"});
+  third.coordinates[1] = at_cfl(1.0);
+  CHECK(tell_apart({&other, &third}).empty());
+  CHECK(other.label() == check.label());
+
+  Check first = check;
+  CHECK(tell_apart({&first, &other, &third}).empty());
+  CHECK(first.label() == "Lemma 2.4: Model II, hat; jittered, CFL 1.5, mu = 2");
+  CHECK(other.label() == "Lemma 2.4: Model II, hat; jittered, CFL 1.5, mu = 3");
+  CHECK(third.label() == "Lemma 2.4: Model II, hat; jittered, CFL 1");
+
+  // Negative control: nothing tells these apart.
+  Check same = check, again = check;
+  CHECK(tell_apart({&same, &again}) == check.label());
 }

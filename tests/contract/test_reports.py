@@ -43,17 +43,23 @@ class Reading(ReportTest):
             self.assertEqual(study.scene.flow, "")
             self.assertEqual(list(study.findings[0].series.cases.N), [160, 320, 640, 1280])
 
+    def test_a_column_more_is_passed_over_and_one_of_later_versions_may_be_missing(self):
+        study = results.read_study(write(self.folder, "fig1", series(drift=np.arange(4))))
+        self.assertTrue(np.isnan(study.findings[0].series.cases.last_time).all())
+
     def test_a_file_that_is_no_result_stops_with_4_and_one_line(self):
-        incomplete, ragged = series(), series(h=np.ones(3))
-        del incomplete["verdict"]
+        incomplete, lacking, ragged = series(), series(), series(h=np.ones(3))
+        del incomplete["verdict"], lacking["error_linf"]
         (self.folder / "junk.h5").write_text("not HDF5")
         with h5py.File(self.folder / "other.h5", "w") as file:
             file.attrs["format"] = "something else"
         write(self.folder, "incomplete", incomplete)
+        write(self.folder, "lacking", lacking)
         write(self.folder, "ragged", ragged)
         write(self.folder, "outside", series(), study="../../outside")
         for name, said in (("junk", "not a readable HDF5 file"), ("other", 'format = "something else"'),
-                           ("incomplete", "no attribute verdict"), ("ragged", "shape (3,)"),
+                           ("incomplete", "no attribute verdict"), ("lacking", "no dataset error_linf"),
+                           ("ragged", "shape (3,)"),
                            ("outside", 'study = "../../outside"')):
             with self.subTest(name):
                 code, out, err = self.run_report(self.folder, self.folder / f"{name}.h5")

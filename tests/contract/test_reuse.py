@@ -47,6 +47,23 @@ class Reuse(ProgramTest):
         self.assertEqual([case["N"] for case in cases], [16, 32, 64])
         self.assertEqual([cases[0], cases[2]], first)
 
+    def test_what_an_older_file_does_not_hold_yet_is_no_obstacle(self):
+        self.run_study(STUDY)
+        first = self.result()
+        with h5py.File(self.folder / "out" / "tiny.h5", "r+") as file:
+            for series in series_of(file):
+                for name in ("last_time", "bound_first_place", "solution_linf"):
+                    del series[name]
+                for case in series["cases"].values():
+                    del case.attrs["blow_up"]
+        self.assert_counts(self.run_study(edit(STUDY, ("A tiny", "The same"))), 0, 3)
+        for case in first["series"][0]["cases"]:
+            case["solution_linf"] = 0.0
+        self.assertEqual(self.result()["series"][0]["cases"], first["series"][0]["cases"])
+        with h5py.File(self.folder / "out" / "tiny.h5", "r+") as file:
+            del series_of(file)[0]["N"]
+        self.assertEqual(self.run_study(STUDY).returncode, 4)
+
     def test_whatever_changes_a_number_is_computed(self):
         base = edit(STUDY, MODEL_II, ('step = "h/4"', 'step = "h/8"'))
         kernel = ('kernel = "cubic-spline"', 'kernel = { name = "power", alpha = 0.5 }')

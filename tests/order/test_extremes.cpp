@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "studies/claims/extreme_rows.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/storing/store.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
@@ -13,7 +12,11 @@ namespace acstudy {
 namespace {
 
 SchemeChoice scheme(int model, bool nonlocal, KernelChoice kernel) {
-  return {.model = model, .nonlocal_divergence = nonlocal, .kernel = std::move(kernel), .mu = {}, .control = {}};
+  return {.model = find_model(model),
+          .nonlocal_divergence = nonlocal,
+          .kernel = std::move(kernel),
+          .mu = {},
+          .control = {}};
 }
 
 /// Both models with a smooth and a singular kernel and either divergence, on fewer particles and steps than the study.
@@ -32,10 +35,10 @@ void check_rows(void (*add)(ExtremeRows&, const Extremes&), const std::string& s
   };
   std::map<std::string, Count> claims;
   for (const Measurement& measurement : rows.take()) {
-    if (measurement.name.rfind(statement, 0) != 0) continue;
-    const Finding finding = measurement.take({});
+    if (measurement.check.label().rfind(statement, 0) != 0) continue;
+    const Finding finding = measurement.take();
     INFO(finding.claim << "\n" << finding.label() << "\n" << finding.judgement.reason);
-    CHECK(finding.label() == measurement.name);
+    CHECK(finding.label() == measurement.check.label());
     CHECK(finding.as_expected());
     CHECK_FALSE(finding.points.empty());
     ++(finding.expected == finding.promised ? claims[finding.claim].right : claims[finding.claim].controls);
@@ -71,8 +74,8 @@ TEST_CASE("extremes: mass drift", "[extremes]") { check_rows(add_rows_of_mass, "
 TEST_CASE("the table of extremes has every row, each once", "[extremes]") {
   std::set<std::string> names, statements;
   for (const Measurement& measurement : extreme_rows(coarse)) {
-    CHECK(names.insert(measurement.name).second);
-    statements.insert(measurement.name.substr(0, measurement.name.find(':')));
+    CHECK(names.insert(measurement.check.label()).second);
+    statements.insert(measurement.check.statement);
   }
   CHECK(statements == std::set<std::string>{"2000 steps", "CFL 1, 1.01, 2", "N = 3 to 2000", "T = 0",
                                             "a particle at a zero of c_hat", "alpha -> 2", "amplitude 1e300 and 1e-300",
@@ -99,7 +102,7 @@ TEST_CASE("printed sums are the rates of the schemes", "[extremes]") {
         PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
         const std::vector<double> rate = placed.rate(u);
         for (std::size_t j = 0; j < x.size(); ++j) {
-          const PrintedRate printed = printed_rate(subject, x, u, delta, j);
+          const PrintedRate printed = subject.printed_rate(x, u, delta, j);
           CHECK(std::abs(rate[j] - printed.value) <= 1e-14 * printed.size);
           CHECK(std::abs(printed.value) <= printed.size);
         }
@@ -124,25 +127,18 @@ TEST_CASE("a run without source is that of a case whose source is zero", "[extre
   }
 }
 
-TEST_CASE("what cannot be measured is a finding without a verdict, and a row is not listed twice", "[extremes]") {
-  const Finding row{.statement = "row",
-                    .claim = "a claim",
-                    .subject = "nothing",
-                    .check = "here",
-                    .test = Test::bounds,
-                    .promised = Verdict::holds,
-                    .expected = Verdict::holds};
+TEST_CASE("what cannot be measured is a finding without a verdict, and a control is not listed twice", "[extremes]") {
+  const Check row{.statement = "row", .claim = "a claim", .subject = "nothing", .coordinates = {{"where", "here"}}};
   ExtremeRows rows;
   rows.add(row, [](Finding&) { throw std::domain_error("no particles"); });
-  CHECK_THROWS_AS(rows.add(row, [](Finding&) {}), std::logic_error);
-  Finding control = row;
-  control.check = "there";
+  Check control = row;
+  control.coordinates = {{"where", "there"}};
   rows.add_control(control, "it must",
                    [](Finding& finding) { finding.points.push_back({.value = 2.0, .upper = 1.0}); });
   rows.add_control(control, "it must", [](Finding&) {});
   const auto taken = rows.take();
   REQUIRE(taken.size() == 2);
-  const Finding failed = taken[0].take({}), caught = taken[1].take({});
+  const Finding failed = taken[0].take(), caught = taken[1].take();
   CHECK(failed.statement == "row");
   CHECK(failed.judgement.verdict == Verdict::inconclusive);
   CHECK_FALSE(failed.as_expected());

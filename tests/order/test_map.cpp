@@ -76,8 +76,8 @@ TEST_CASE("a map of a compatible scheme confirms every limit, and the gate judge
 }
 
 TEST_CASE("a surface that a file claims is judged by its values") {
-  Finding finding{
-      .test = Test::surface, .theory_order = 1.0, .promised = Verdict::confirmed, .expected = Verdict::confirmed};
+  Finding finding{Check{
+      .test = Test::surface, .theory_order = 1.0, .promised = Verdict::confirmed, .expected = Verdict::confirmed}};
   for (const double delta : {0.01, 0.02, 0.05, 0.1, 0.2}) {
     for (const double h : {0.1, 0.07, 0.05, 0.035, 0.025}) {
       finding.points.push_back({.h = h, .delta = delta, .value = 0.05 * h / delta + delta});
@@ -145,9 +145,9 @@ TEST_CASE("findings of an interrupted study are taken up one by one") {
     REQUIRE(studies[0].measurements.size() == 6);
     std::size_t taken = 0;
     for (Measurement& measurement : studies[0].measurements) {
-      measurement.take = [&, inner = measurement.take](const std::vector<SeriesResult>& results) {
+      measurement.measure = [&, inner = measurement.measure](Finding& finding, const std::vector<SeriesResult>& all) {
         stop = ++taken == interrupt_after;
-        return inner(results);
+        inner(finding, all);
       };
     }
     stop = false;

@@ -28,38 +28,38 @@ double largest(const Finding& finding) {
 
 template <class Check>
 void for_each_choice(Check check) {
-  for (const char* const name : {"inverse", "cubic-spline"}) check(WeightsChoice{1, {name}});
-  for (const double alpha : {-2.0, 0.0, 0.9, 1.0, 1.99}) check(WeightsChoice{1, {"power", alpha}});
-  check(WeightsChoice{2, {"cubic-spline"}});
-  for (const double alpha : {-2.0, 0.5, 0.99}) check(WeightsChoice{2, {"power", alpha}});
+  for (const char* const name : {"inverse", "cubic-spline"}) check(WeightsChoice{&model_one, {name}});
+  for (const double alpha : {-2.0, 0.0, 0.9, 1.0, 1.99}) check(WeightsChoice{&model_one, {"power", alpha}});
+  check(WeightsChoice{&model_two, {"cubic-spline"}});
+  for (const double alpha : {-2.0, 0.5, 0.99}) check(WeightsChoice{&model_two, {"power", alpha}});
 }
 
 }  // namespace
 
 TEST_CASE("weights and N_j agree with 50 digits, from horizons below every gap to 300 h", "[digits]") {
   for_each_choice([](const WeightsChoice& choice) {
-    INFO("Model " << choice.model << ", " << choice.kernel.label());
-    const Finding weights = round_off_of_weights(choice, ratios, CellForm::factored);
+    INFO(choice.model->name << ", " << choice.kernel.label());
+    const Finding weights = round_off_of_weights(choice, ratios, CellForm::factored).take();
     CHECK(weights.points.size() == ratios.size());
     CHECK(weights.judgement.verdict == Verdict::holds);
     CHECK(largest(weights) < few_units);
-    if (choice.model == 1) return;
-    const Finding renormalization = round_off_of_renormalization(choice, ratios);
+    if (choice.model == &model_one) return;
+    const Finding renormalization = round_off_of_renormalization(choice, ratios).take();
     CHECK(renormalization.judgement.verdict == Verdict::holds);
     CHECK(largest(renormalization) < few_units);
   });
 }
 
 TEST_CASE("plain sums of N_j over 2e4 neighbors keep their digits", "[digits]") {
-  const Finding finding = round_off_of_renormalization({2, {"cubic-spline"}}, {1e4});
+  const Finding finding = round_off_of_renormalization({&model_two, {"cubic-spline"}}, {1e4}).take();
   CHECK(finding.judgement.verdict == Verdict::holds);
   CHECK(largest(finding) < few_units);
 }
 
 TEST_CASE("negative control: differences of closed forms lose digits, and it is seen", "[digits]") {
   for_each_choice([](const WeightsChoice& choice) {
-    INFO("Model " << choice.model << ", " << choice.kernel.label());
-    const Finding finding = round_off_of_weights(choice, ratios, CellForm::difference);
+    INFO(choice.model->name << ", " << choice.kernel.label());
+    const Finding finding = round_off_of_weights(choice, ratios, CellForm::difference).take();
     CHECK(finding.judgement.verdict == Verdict::violated);
     CHECK(finding.expected == Verdict::violated);
     CHECK(largest(finding) > 1e-9);
@@ -95,9 +95,9 @@ TEST_CASE("what is examined are the weights of the models", "[digits]") {
 }
 
 TEST_CASE("gaps of the paper's flow lose the digits of a position relative to a gap", "[digits]") {
-  const Scene scene(named_scenes().front());
-  REQUIRE(scene.text().b == "sin(x)");
-  const Finding finding = round_off_of_gaps(scene, 200, {1.0, 8.0});
+  const auto scene = std::make_shared<const Scene>(named_scenes().front());
+  REQUIRE(scene->text().b == "sin(x)");
+  const Finding finding = round_off_of_gaps(scene, 200, {1.0, 8.0}).take();
   REQUIRE(finding.points.size() == 2);
   CHECK(finding.judgement.verdict == Verdict::holds);
   // Smallest gaps are e^-t h.
@@ -105,8 +105,9 @@ TEST_CASE("gaps of the paper's flow lose the digits of a position relative to a 
   CHECK(finding.points[1].value > 1e-12);
   CHECK(finding.points[1].value < 1e-9);
   // Negative control: another flow.
-  SceneText text = scene.text();
+  SceneText text = scene->text();
   text.b = "sin(x)*1.0000001";
   text.flow.reset();
-  CHECK(round_off_of_gaps(Scene(text), 200, {1.0}).judgement.verdict == Verdict::violated);
+  CHECK(round_off_of_gaps(std::make_shared<const Scene>(text), 200, {1.0}).take().judgement.verdict ==
+        Verdict::violated);
 }

@@ -91,7 +91,7 @@ def error_figure(curves, styles, cost):
 
 def _points(curve, cost):
     """(cost, error) with NaN where a level cannot be drawn on logarithmic axes."""
-    x = curve.seconds.median if cost == "seconds" else curve.work["pairs"]
+    x = curve.seconds.median if cost == "seconds" else curve.pairs
     return axes.drawable(x, curve.error)
 
 

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
+#include <string>
+#include <type_traits>
 #include <unordered_map>
+#include <vector>
 
 #include "studies/reading/input_error.hpp"
 #include "studies/storing/bench_store.hpp"
@@ -21,19 +22,24 @@ std::string name_of(const BenchCase& one) {
 
 /// What differs between two results of one case although nothing may; empty if nothing does.
 std::string difference(const CaseResult& first, const CaseResult& now) {
-  if (std::bit_cast<std::uint64_t>(first.error_linf) != std::bit_cast<std::uint64_t>(now.error_linf)) {
-    return fmt::format("its error was {:.17g} and then {:.17g}", first.error_linf, now.error_linf);
-  }
-  for (const auto& [what, before, after] :
-       {std::tuple{"pairs", first.work.pairs, now.work.pairs},
-        {"weight builds", first.work.weight_builds, now.work.weight_builds},
-        {"velocity evaluations", first.work.velocity_evaluations, now.work.velocity_evaluations},
-        {"quadrature points", first.quadrature_points, now.quadrature_points},
-        {"flow evaluations", first.flow_evaluations, now.flow_evaluations},
-        {"steps", first.steps, now.steps}}) {
-    if (before != after) return fmt::format("it had {} {} and then {}", before, what, after);
-  }
-  return "";
+  std::vector<std::string> before;
+  std::string found;
+  const auto exact = []<class T>(const T& value) {  // texts are equal exactly if values are
+    if constexpr (std::is_same_v<T, double>) return fmt::format("{:.17g}", value);
+    if constexpr (!std::is_same_v<T, std::vector<double>>) return fmt::format("{}", value);
+    return std::string();  // fields are dropped
+  };
+  CaseResult::stored(first, [&](const Stored&, const auto& value) { before.push_back(exact(value)); });
+  std::size_t i = 0;
+  CaseResult::stored(now, [&]<class T>(const Stored& as, const T& value) {
+    const std::string was = before[i++], is = exact(value);
+    if (!found.empty() || as.timed || is == was) return;
+    std::string name = as.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    found = std::is_integral_v<T> ? fmt::format("it had {} {} and then {}", was, name, is)
+                                  : fmt::format("its {} was {} and then {}", name, was, is);
+  });
+  return found;
 }
 
 void drop_fields(CaseResult& result) {
@@ -108,8 +114,7 @@ BenchOutcome time_cases(Bench& bench, const BenchOptions& options, const BenchHo
     ++round;
     for (BenchCase* const one : open) {
       if (stop || !run(*one, now)) return outcome;
-      one->samples.push_back({round, session, now.seconds, now.positions_seconds, now.weights_seconds,
-                              now.pairs_seconds, now.source_seconds});
+      one->samples.push_back({now, round, session, now.seconds});
       ++outcome.runs;
     }
     std::erase_if(open, [&](const BenchCase* one) { return !needs_more(*one); });

@@ -85,11 +85,6 @@ Verdict FitRequest::wanted() const {
   return !order ? Verdict::determined : *order == 0.0 ? Verdict::stagnates : Verdict::confirmed;
 }
 
-bool Fits::passes() const {
-  return std::all_of(columns.begin(), columns.end(),
-                     [this](const Fit& fit) { return meets(fit.judgement.verdict, request.wanted()); });
-}
-
 Fits fit_table(const FitRequest& request) {
   require_usable(request);
   const NumberTable table(request.file);

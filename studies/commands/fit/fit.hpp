@@ -3,6 +3,7 @@
 /// @file
 /// acstudy fit: the judgement of a table of errors, wherever they come from.
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,23 +28,29 @@ struct FitRequest {
   Verdict wanted() const;  ///< what passes
 };
 
+/// The columns of a table that were asked for, each judged: `Judged` has the name of its `column` and a `judgement`.
+template <class Judged>
+struct JudgedColumns {
+  FitRequest request;
+  bool several = false;  ///< several columns were asked for, even if there is only one
+  std::vector<Judged> columns;
+  std::vector<std::string> left_out;  ///< what "all" leaves out and why
+
+  /// True if every column has the order that was asked for; for order 0, if it settles; without an order, if it
+  /// determines one.
+  bool passes() const {
+    return std::all_of(columns.begin(), columns.end(),
+                       [this](const Judged& one) { return meets(one.judgement.verdict, request.wanted()); });
+  }
+};
+
 /// The judgement of one column of errors.
 struct Fit {
-  std::string error;          ///< name of the column
+  std::string column;
   std::vector<Level> levels;  ///< those that were asked for, coarse to fine
   Judgement judgement;
 };
-
-struct Fits {
-  FitRequest request;
-  bool several = false;  ///< several columns were asked for, even if there is only one
-  std::vector<Fit> columns;
-  std::vector<std::string> left_out;  ///< what "all" leaves out and why
-
-  /// True if the errors of every column have the order that was asked for; for order 0, if they settle; without an
-  /// order, if they determine one.
-  bool passes() const;
-};
+using Fits = JudgedColumns<Fit>;
 
 /// Reads a table and judges its errors, in columns that NumberTable reads. Rows may stand in any order. An error may be
 /// nan or inf, a variable, a count or a weight must be positive. Where the variable grows as the errors fall, and is

@@ -65,11 +65,6 @@ std::vector<Difference> read_differences(const NumberTable& table, std::size_t c
 
 }  // namespace
 
-bool ValueFits::passes() const {
-  return std::all_of(columns.begin(), columns.end(),
-                     [this](const ValueFit& fit) { return meets(fit.judgement.verdict, request.wanted()); });
-}
-
 ValueFits fit_values(const FitRequest& request) {
   require_usable(request);
   const NumberTable table(request.file);

@@ -13,19 +13,11 @@ namespace acstudy {
 
 /// The judgement of one column of values, or of differences of successive levels.
 struct ValueFit {
-  std::string name;           ///< of the column
+  std::string column;
   std::vector<Value> values;  ///< those that were asked for, coarse to fine; of differences none
   ValueJudgement judgement;
 };
-
-struct ValueFits {
-  FitRequest request;
-  bool several = false;  ///< several columns were asked for, even if there is only one
-  std::vector<ValueFit> columns;
-  std::vector<std::string> left_out;  ///< what "all" leaves out and why
-
-  bool passes() const;
-};
+using ValueFits = JudgedColumns<ValueFit>;
 
 /// Reads a table and judges the columns that `values` or `differences` of the request name. A difference stands in the
 /// row of the coarser of its two levels, or of the finer: then the row of the finest level, or of the coarsest, is

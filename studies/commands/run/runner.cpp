@@ -104,27 +104,6 @@ std::exception_ptr in_parallel(std::size_t count, Work&& work) {
   return failure;
 }
 
-/// The finding of a measurement, or why there is none; what is not the fault of the numbers goes up.
-Finding take(const Measurement& measurement, const std::vector<SeriesResult>& results) {
-  std::string failure;
-  try {
-    return measurement.take(results);
-  } catch (const StoreError&) {
-    throw;
-  } catch (const std::domain_error& error) {
-    failure = error.what();
-  } catch (const std::runtime_error& error) {
-    failure = error.what();
-  }
-  Finding finding{.statement = measurement.name,
-                  .test = Test::bounds,
-                  .promised = Verdict::holds,
-                  .expected = Verdict::holds,
-                  .failure = failure};
-  judge(finding);
-  return finding;
-}
-
 /// Appends what is not saved yet to the journals. A disk that is full now may not be later, and the run goes on.
 void save(const std::filesystem::path& out, const std::vector<StudyResult>& studies, std::vector<Finished>& unsaved,
           const std::vector<bool>& finished, std::mutex& mutex) {
@@ -199,6 +178,8 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
     for (std::size_t i = 0; i < study.measurements.size(); ++i) {
       if (const auto found = stored.findings.find(i); reusable && found != stored.findings.end()) {
         run.studies[s].findings[i] = found->second;
+        // The store has their values, but not what a reader sees of them.
+        run.studies[s].findings[i]->coordinates = study.measurements[i].check.coordinates;
       } else {
         measurements.push_back({s, i});
         measured = false;
@@ -317,9 +298,9 @@ RunResult run_studies(const std::vector<Study>& studies, const RunOptions& optio
       if (next == measurements.size() || stop) return false;
       const auto [s, m] = measurements[next++];
       lock.unlock();
-      const Finding finding = take(studies[s].measurements[m], run.studies[s].series);
+      Finding finding = studies[s].measurements[m].take(run.studies[s].series);
       lock.lock();
-      run.studies[s].findings[m] = finding;
+      run.studies[s].findings[m] = std::move(finding);
       unsaved[s].findings.push_back(m);
       progress.finding_done();
       finish_if_complete(s);

@@ -257,7 +257,7 @@ void add_time_levels(ExtremeRows& rows, std::int64_t most) {
       // Two roundings of half an ulp, that of T/count and that of the product.
       row.points.push_back({.N = most, .variable = T, .value = farthest, .upper = 1.001});
     }
-    row.variable = "T";
+    row.variable = std::string("T");
   };
   rows.add(named("t = n T/count"), [=](Finding& row) { compare(row, false); });
   rows.add_control(named("time summed up"), "roundings of a sum add up", [=](Finding& row) { compare(row, true); });

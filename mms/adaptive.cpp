@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "mms/gsl_status.hpp"
+#include "mms/nonlocal_source.hpp"
 
 namespace acstudy {
 
@@ -55,71 +56,19 @@ double integrate_boost(const Function& g, double lower, double upper, double exp
   return result;
 }
 
-struct Point {
-  double value = 0.0, slope = 0.0;
-};
+}  // namespace
 
-/// (g(right) - g(left)) / (right - left) without cancellation: below `small` the average of g' by a Gauss rule, which
-/// is exact to round-off for waves down to the length `small`.
-template <class Field>
-double divided_difference(const Field& g, double left, double right, double small) {
+double divided_difference(const PointFunction& g, double left, double right, double small) {
   const double gap = right - left;
   if (gap > small) return (g(right).value - g(left).value) / gap;
   const auto slope = [&](double s) { return g(left + 0.5 * (1.0 + s) * gap).slope; };
   return 0.5 * boost::math::quadrature::gauss<double, 20>::integrate(slope, -1.0, 1.0);
 }
 
-}  // namespace
-
 double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model, SourceRule rule, double x, double t,
                                  std::int64_t& points) {
-  const auto b = [&](double y) {
-    Point p;
-    if (!scene.standing()) scene.b({&y, 1}, {&p.value, 1}, {&p.slope, 1});
-    return p;
-  };
-  const auto c_hat = [&](double y) {
-    Point p;
-    scene.c({&y, 1}, {&p.value, 1}, {&p.slope, 1});
-    const Point particle = b(y);
-    return Point{p.value - particle.value, p.slope - particle.slope};
-  };
-  const auto u = [&](double y) {
-    Point p;
-    scene.u({&y, 1}, t, {&p.value, 1}, {&p.slope, 1});
-    return p;
-  };
-  const Point u_at_x = u(x);
-  const bool nonlocal_divergence = model.nonlocal_divergence && !scene.standing();
-  const double delta = model.delta, small = 1e-3 * scene.period();
-
-  // Every term has the form int_0^delta G(s) s eta^delta(s) ds with a smooth G.
-  Function G;
-  if (model.model == 1) {
-    const double s = c_hat(x).value > 0.0 ? 1.0 : -1.0;
-    const auto flux = [&](double y) {
-      const Point a = c_hat(y), v = u(y);
-      return Point{a.value * v.value, a.slope * v.value + a.value * v.slope};
-    };
-    G = [=](double r) {
-      const double left = std::min(x, x - s * r), right = std::max(x, x - s * r);
-      const double divergence = nonlocal_divergence ? divided_difference(b, left, right, small) * u_at_x.value : 0.0;
-      return divided_difference(flux, left, right, small) + divergence;
-    };
-  } else {
-    const auto pair_flux = [=](double z) {
-      const Point a = c_hat(x + 0.5 * z), v = u(x + z);
-      return Point{a.value * (u_at_x.value + v.value), 0.5 * a.slope * (u_at_x.value + v.value) + a.value * v.slope};
-    };
-    G = [=](double r) {
-      const double advection = divided_difference(pair_flux, -r, r, small);
-      const double divergence =
-          nonlocal_divergence ? divided_difference(b, x - 0.5 * r, x + 0.5 * r, small) * u_at_x.value : 0.0;
-      const double bend =
-          r > 0.0 ? (divided_difference(u, x, x + r, small) - divided_difference(u, x - r, x, small)) / r : 0.0;
-      return advection + divergence - delta * model.mu * 0.5 * bend;
-    };
-  }
+  const Function G = model.continuum->integrand(scene, model, x, t);
+  const double delta = model.delta;
   const double a = model.kernel.origin_exponent, middle = model.kernel.breakpoint;
   const auto integrate = [&](const Function& g, double lower, double upper, double exponent) {
     const Function counted = [&](double z) {

@@ -79,8 +79,10 @@ Rule averaged_atoms(const KernelProfile& kernel, std::size_t points, double powe
 /// milliseconds.
 Rule averaged_rule(const KernelProfile& kernel, std::size_t points, double power) {
   static std::mutex mutex;
-  static std::map<std::tuple<std::type_index, double, std::size_t, double>, Rule> known;
-  const std::tuple key(kernel.kind, kernel.origin_exponent, points, power);
+  static std::map<std::tuple<std::type_index, double, double, double, std::size_t, double>, Rule> known;
+  // Members of a family have one kind; they differ in their exponent, or in what is beside it.
+  const std::tuple key(kernel.kind, kernel.origin_exponent, kernel.regular_part(0.25), kernel.regular_part(0.75),
+                       points, power);
   {
     const std::lock_guard lock(mutex);
     if (const auto rule = known.find(key); rule != known.end()) return rule->second;

@@ -4,6 +4,7 @@
 /// Manufactured sources: the f that makes the exact u of a scene solve the PDE or a nonlocal model.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -12,20 +13,36 @@
 
 namespace acstudy {
 
-/// A continuum nonlocal model: which one, how its divergence is written, at which horizon.
+class Source;
+struct NonlocalModel;
+
+/// Where Model I looks: by the sign of c_hat, or to one side everywhere, which makes its source a smooth field.
+enum class Look { upwind, left, right };
+
+/// A kind of continuum nonlocal model, by its terms beyond du/dt and a local b' u: flux, nonlocal divergence,
+/// viscosity.
+struct ContinuumModel {
+  /// The source by a Gauss rule of so many points.
+  std::unique_ptr<Source> (*source)(const Scene&, const NonlocalModel&, std::size_t points, Look);
+  /// The smooth G(r), 0 <= r <= delta, with which the terms at (x, t) are int_0^delta G(r) r eta^delta(r) dr; for the
+  /// adaptive rules. It refers to the scene.
+  std::function<double(double r)> (*integrand)(const Scene&, const NonlocalModel&, double x, double t);
+  bool sided;  ///< the source depends on where `Look` says
+};
+extern const ContinuumModel upwind_continuum;   ///< (2.8), (2.10): upwind kernel
+extern const ContinuumModel viscous_continuum;  ///< (3.7), (3.9): vanishing nonlocal viscosity
+
+/// A continuum nonlocal model: of which kind, how its divergence is written, at which horizon.
 struct NonlocalModel {
-  int model;                 ///< 1: upwind kernel, 2: vanishing nonlocal viscosity
+  const ContinuumModel* continuum;
   bool nonlocal_divergence;  ///< (2.10), (3.9) instead of (2.8), (3.7); of no matter where particles stand still
   KernelProfile kernel;
   double delta;
-  double mu;  ///< Model II only
+  double mu;  ///< of the viscous term, if there is one
 };
 
 /// How nonlocal sources are integrated: a fixed Gauss rule, or adaptively by a library (slow; the reference).
 enum class SourceRule { gauss, gsl, boost };
-
-/// Where Model I looks: by the sign of c_hat, or to one side everywhere, which makes its source a smooth field.
-enum class Look { upwind, left, right };
 
 /// The manufactured source in the moving frame, f = du/dt + b' u + (c_hat u)_x or its nonlocal counterpart.
 class Source {

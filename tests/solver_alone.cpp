@@ -7,7 +7,7 @@
 
 #include "solver/model1.hpp"
 #include "solver/model2.hpp"
-#include "solver/time/integrators.hpp"
+#include "solver/time/integrate.hpp"
 
 namespace {
 

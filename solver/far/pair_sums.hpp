@@ -34,6 +34,18 @@ struct ChannelSums {
   Lanes over[C::over] = {};
   Lanes plain[C::plain + 1] = {};
   Lanes reach = {};  ///< distance of the outermost neighbor
+
+  ChannelSums() = default;
+  ChannelSums(const ChannelSums& other) { *this = other; }
+  /// Lane by lane: a copy of the whole is made by a string instruction, which takes as long as ten neighbors.
+  ACSTUDY_ALWAYS_INLINE inline ChannelSums& operator=(const ChannelSums& other) {
+#pragma GCC unroll 4
+    for (int c = 0; c < C::over; ++c) over[c] = other.over[c];
+#pragma GCC unroll 32
+    for (int f = 0; f < C::plain; ++f) plain[f] = other.plain[f];
+    reach = other.reach;
+    return *this;
+  }
 };
 
 /// Neighbors p that have been summed otherwise, with whole cells: m from outer_begin to outer_end and from inner_begin
@@ -61,7 +73,7 @@ class PairSums {
         break_end_(break_begin_) {}
 
   /// Adds the neighbors of the vector that have not been summed otherwise. Vectors have to come in walking order.
-  ACSTUDY_ALWAYS_INLINE inline void add(const Vector<s>& vector, const Summed& summed, ChannelSums<C>& total) {
+  ACSTUDY_NEVER_INLINE void add(const Vector<s>& vector, const Summed& summed, ChannelSums<C>& total) {
     const std::ptrdiff_t last = vector.first + vector.count - 1,
                          lowest = static_cast<std::ptrdiff_t>(outermost_[s * vector.first]),
                          highest = static_cast<std::ptrdiff_t>(outermost_[s * last]);
@@ -72,8 +84,8 @@ class PairSums {
       add_some<KernelPiece::any, KernelPiece::any>(some, lowest, last, last, total);
       return;
     }
-    ChannelSums<C> sums = total;
     std::ptrdiff_t i = highest + 1;
+    ChannelSums<C> sums;  // of which no reference leaves this function, so that they stay in registers
     const auto up_to = [&]<KernelPiece piece>(std::ptrdiff_t to) ACSTUDY_ALWAYS_INLINE {
       add_whole<piece>(x, i, to, sums);
       if (to > i) i = to;
@@ -87,12 +99,13 @@ class PairSums {
                                                                         : i;
     const std::ptrdiff_t first = begin < lowest ? begin : lowest, edge = begin < i ? begin : i;
     if (i <= break_begin_) {
-      add_some<KernelPiece::outside, KernelPiece::outside>(some, first, edge, i, sums);
+      add_some<KernelPiece::outside, KernelPiece::outside>(some, first, edge, i, total);
     } else if (has_outer) {
-      add_some<KernelPiece::any, KernelPiece::outside>(some, first, edge, i, sums);
+      add_some<KernelPiece::any, KernelPiece::outside>(some, first, edge, i, total);
     } else {
-      add_some<KernelPiece::any, KernelPiece::inside>(some, first, edge, i, sums);
+      add_some<KernelPiece::any, KernelPiece::inside>(some, first, edge, i, total);
     }
+    sums = total;
     if constexpr (C::two_pieces) {
       if (has_outer) {
         up_to.template operator()<KernelPiece::outside>(summed.outer_begin);
@@ -177,9 +190,11 @@ class PairSums {
   /// Neighbors first .. last - 1 of some of the particles. Some may be the outermost of a particle, whose cell reaches
   /// to the horizon. Those from `summed` on have been summed as whole cells, within piece `whole`.
   template <KernelPiece piece, KernelPiece whole>
-  ACSTUDY_ALWAYS_INLINE inline void add_some(const Some& some, std::ptrdiff_t first, std::ptrdiff_t summed,
-                                             std::ptrdiff_t last, ChannelSums<C>& sums) const {
+  ACSTUDY_NEVER_INLINE void add_some(const Some& some, std::ptrdiff_t first, std::ptrdiff_t summed, std::ptrdiff_t last,
+                                     ChannelSums<C>& total) const {
+    if (first >= last) return;
     const auto& [x, p, outer] = some;
+    ChannelSums<C> sums = total;
     const Lanes zero = {}, one = spread(1.0);
     for (std::ptrdiff_t i = first; i < last; ++i) {
       const Lanes p_i = spread(static_cast<double>(i)), distance = x - order_.x(i);
@@ -198,6 +213,7 @@ class PairSums {
       add_cell(m, over, i, sums);
       sums.reach = select(is_outermost, distance, sums.reach);
     }
+    total = sums;
   }
 
   Order<s> order_;

@@ -26,7 +26,7 @@ struct PolynomialSums {
   ACSTUDY_ALWAYS_INLINE inline void clear() {
     for (int k = 0; k < terms * width; ++k) coefficient[k] = 0.0;
   }
-  ACSTUDY_ALWAYS_INLINE inline void move(double h) {
+  ACSTUDY_NEVER_INLINE void move(double h) {
     for (int c = 0; c < width; c += lane_count) {
       Lanes column[terms + 1];
       read(c, column);
@@ -35,7 +35,7 @@ struct PolynomialSums {
     }
   }
   /// Adds sign times other, whose argument is h more than that of this one.
-  ACSTUDY_ALWAYS_INLINE inline void add(const PolynomialSums& other, double h, double sign) {
+  ACSTUDY_NEVER_INLINE void add(const PolynomialSums& other, double h, double sign) {
     for (int c = 0; c < width; c += lane_count) {
       Lanes column[terms + 1];
       other.read(c, column);

@@ -36,7 +36,7 @@ class ReciprocalWindow {
   }
 
   /// Takes in the next box, given by sum_i q_i tau_i^n, [channels][padded(terms)].
-  ACSTUDY_ALWAYS_INLINE inline void push(const double* powers) {
+  ACSTUDY_NEVER_INLINE void push(const double* powers) {
     double* const own = box(newest_++);
     for (int m = 0; m < e_.padded_count; m += lane_count) {
       Lanes sum[channels] = {};
@@ -63,7 +63,7 @@ class ReciprocalWindow {
 
   /// local[c * stride + n] += coefficients in t of the sums over a box that begins `gap` boxes after the end of the
   /// window.
-  ACSTUDY_ALWAYS_INLINE inline void add_to(double gap, double* local, int stride) {
+  ACSTUDY_NEVER_INLINE void add_to(double gap, double* local, int stride) {
     const double* const decay = until_.over(gap);
     double at_box[channels * ExponentialSum::capacity];
     for (int m = 0; m < e_.padded_count; m += lane_count) {
@@ -95,7 +95,7 @@ class ReciprocalWindow {
   class Decay {
    public:
     explicit Decay(const Expansion& e) : e_(e) {}
-    ACSTUDY_ALWAYS_INLINE inline const double* over(double distance) {
+    ACSTUDY_NEVER_INLINE const double* over(double distance) {
       if (distance != distance_) {
         distance_ = distance;
         for (int m = 0; m < e_.padded_count; m += lane_count) {
@@ -111,7 +111,7 @@ class ReciprocalWindow {
     double decay_[ExponentialSum::capacity];
   };
 
-  ACSTUDY_ALWAYS_INLINE inline void pop() {
+  ACSTUDY_NEVER_INLINE void pop() {
     const double* const own = box(oldest_++);
     if (empty()) {
       for (double& moment : moments_) moment = 0.0;

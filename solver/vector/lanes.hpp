@@ -20,6 +20,8 @@
 
 /// Sums must stay in registers, which they do only where the walk and what it visits become one function.
 #define ACSTUDY_ALWAYS_INLINE __attribute__((always_inline))
+/// For what runs long once called: a copy at every call takes the compiler a minute and gains nothing.
+#define ACSTUDY_NEVER_INLINE __attribute__((noinline))
 
 namespace acstudy {
 inline namespace ACSTUDY_ISA {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/models/control_choice.hpp"
+
 namespace acstudy {
 
 std::string Case::key() const {
@@ -13,29 +15,27 @@ std::string Case::key() const {
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
       "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}",
-      text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""), scheme.model,
+      text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""), scheme.model->number,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",
-      scheme.kernel.name, scheme.kernel.alpha, mu, nonlocal_source ? "nonlocal" : "local",
+      scheme.kernel.name, scheme.kernel.parameter, mu, nonlocal_source ? "nonlocal" : "local",
       static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta,
       step.bound == StepRule::Bound::none ? std::to_string(steps)
                                           : fmt::format("{}*{:.17g}", step.label(), step.safety),
       start == Start{} ? "" : fmt::format("|start={},{:.17g}", start.label(), start.smallest_gap),
-      scheme.control.empty() ? "" : "|control=" + scheme.control,
+      scheme.control == nullptr ? "" : fmt::format("|control={}", scheme.control->name),
       source_refinement == 1 ? "" : fmt::format("|source_points=x{}", source_refinement),
       readable ? "|form=readable" : "");
 }
 
 double Case::estimated_work() const {
-  const double of_pair = scheme.model == 1 ? 1.0 : 4.0, of_particle = 10.0;
+  constexpr double of_particle = 10.0;
   return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stage_count()) *
-         (of_pair * std::max(1.0, delta / h) + of_particle);
+         (scheme.model->pair_cost * std::max(1.0, delta / h) + of_particle);
 }
 
-double Case::lemma_bound(double h_min) const {
-  return lemma_step(scheme, h_min, scheme.model == 1 ? scene->max_relative_velocity() : 0.0, mu);
-}
+double Case::lemma_bound(double h_min) const { return h_min / scheme.model->step_lemma.speed(*scene, mu); }
 
 void Case::halve_steps() {
   steps *= 2;

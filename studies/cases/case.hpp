@@ -34,7 +34,7 @@ struct StepRule {
 struct Case {
   std::shared_ptr<const Scene> scene;
   SchemeChoice scheme;
-  double mu;  ///< of Model II; 0 for Model I
+  double mu;  ///< of a viscous model; else 0
   bool nonlocal_source;
   SourceRule source_rule;
   const Integrator* integrator;
@@ -59,7 +59,7 @@ struct Case {
   std::string key() const;
   /// Rough number of pair interactions, to start the longest case first.
   double estimated_work() const;
-  /// `lemma_step` of this case.
+  /// The largest forward Euler step that the lemma of the model allows at a smallest gap.
   double lemma_bound(double h_min) const;
   /// CFL number at the start: dt over the bound of the lemma.
   double cfl() const { return dt / lemma_bound(h * start.smallest_gap); }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// What claims of theory are examined on, and the bounds of a scene's fields that enter them.
+/// What claims of theory are examined on.
 
 #include <cmath>
 #include <cstdint>
@@ -11,6 +11,7 @@
 
 #include "studies/cases/finding.hpp"
 #include "studies/models/arrangement.hpp"
+#include "studies/models/field_bounds.hpp"
 #include "studies/models/operator.hpp"
 
 namespace acstudy {
@@ -18,7 +19,7 @@ namespace acstudy {
 /// A scheme on a scene, its particles in one arrangement.
 struct Subject {
   SchemeChoice scheme;
-  double mu;  ///< viscosity bound of Model II
+  double mu;  ///< viscosity bound, of a viscous model
   std::shared_ptr<const Scene> scene;
   Arrangement arrangement;
   unsigned seeds = 3;  ///< a jittered arrangement is examined with the seeds 1 .. seeds, and the worst counts
@@ -27,6 +28,11 @@ struct Subject {
   double t() const { return arrangement == Arrangement::moved ? scene->T() : 0.0; }
   /// Every arrangement of N particles that is examined.
   std::vector<std::vector<double>> positions(std::int64_t N) const;
+  /// rate_j(u) as the formulas are printed, particles at x.
+  PrintedRate printed_rate(const std::vector<double>& x, const std::vector<double>& u, double delta,
+                           std::size_t j) const {
+    return scheme.model->printed_rate({scheme, *scene, mu, x, u, delta, j});
+  }
   /// A check of this subject: its coordinates are the arrangement, the given ones, and those of the scheme, unspoken.
   Check check(std::string statement, std::string claim, const std::vector<Coordinate>& conditions, std::string quantity,
               Test test = Test::bounds) const;
@@ -47,15 +53,5 @@ std::vector<Coordinate> scheme_coordinates(const SchemeChoice& scheme, double mu
 
 /// True if `value` is farther out than `than`. NaN is the worst.
 inline bool worse(double value, double than) { return std::isnan(value) || value > than; }
-
-/// Max norms over the period at time t, from 4096 samples and their differences, raised by 1/1000: more than that
-/// misses of fields with up to 10 waves per period.
-struct FieldBounds {
-  double c_hat, c_hat_1, c_hat_2;  ///< c - b and its derivatives
-  double b_1 = 0.0, b_2 = 0.0;
-  double u, u_1, u_2, u_3;
-  double flux_2;  ///< second derivative of (c - b) u
-};
-FieldBounds field_bounds(const Scene& scene, double t);
 
 }  // namespace acstudy

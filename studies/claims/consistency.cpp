@@ -3,53 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace acstudy {
 
 namespace {
 
-constexpr std::array model1_estimates = {
-    LemmaEstimate{"Lemma 2.3", "max |G_h - G|", false, true},
-    LemmaEstimate{"Lemma 2.5", "max |G_h - d/dx|", false, false},
-};
-constexpr std::array model2_estimates = {
-    LemmaEstimate{"Lemma 3.2, A", "max |A_h - A|", false, true},
-    LemmaEstimate{"Lemma 3.2, D", "max |D_h - D|", true, true},
-    LemmaEstimate{"Lemma 3.4, A", "max |A_h - d/dx|", false, false},
-    LemmaEstimate{"Lemma 3.4, D", "max |reach D_h|", true, false},
-};
-
 double variable(const LemmaEstimate& estimate, double h, double delta) {
   return estimate.nonlocal ? h : std::max(h, delta);
 }
 
 /// What the statement says, and what is known to hold instead.
-std::string claim(const Subject& subject, const LemmaEstimate& estimate) {
+std::string claim(const LemmaEstimate& estimate) {
   if (!estimate.nonlocal) return "O(max(h, delta))";
-  if (subject.scheme.model == 1) return "O(h), whatever delta";
-  return estimate.viscous ? "O(h) + O(h^3/delta^2)" : "O(h) + O(h^2/delta)";
+  return estimate.second_term.empty() ? "O(h), whatever delta" : fmt::format("O(h) + O({})", estimate.second_term);
 }
 
 double reach(const Particles& particles, std::ptrdiff_t j) {
   const double* const x = particles.x.at(j);
   return std::max({particles.delta, x[0] - x[-particles.windows.left[j]], x[particles.windows.right[j]] - x[0]});
-}
-
-/// C of error <= C h, or of error <= C max(h, delta), at this horizon: Taylor's formula and the moments of the weights.
-/// Nothing is fitted. The largest C of all horizons, which is finite, is the constant of the lemma.
-double constant(const Subject& subject, const LemmaEstimate& estimate, const FieldBounds& f, const Gaps& gap,
-                double delta) {
-  const double divergence = subject.scheme.nonlocal_divergence ? f.b_2 * f.u : 0.0;
-  if (subject.scheme.model == 1) return 0.5 * (f.flux_2 + divergence);
-  const double curvature = 0.5 * f.c_hat_2 * f.u + f.c_hat_1 * f.u_1 + f.c_hat * f.u_2 + 0.5 * divergence;
-  if (!estimate.nonlocal) return 0.5 * (estimate.viscous ? f.u_2 : curvature);
-  const double by_way_of_pde = (estimate.viscous ? f.u_3 / 3.0 : curvature) * std::max(1.0, delta / gap.largest);
-  if (delta < gap.largest) return by_way_of_pde;
-  const double mass = total_mass(subject.scheme.kernel);
-  const double least_N = std::max(gap.smallest / (gap.smallest + gap.largest), 1.0 - mass * gap.largest / delta);
-  return std::min(by_way_of_pde, mass / least_N * (estimate.viscous ? 0.5 * f.u_3 : 1.5 * curvature));
 }
 
 /// The errors of an estimate at one horizon. Finding the sources' quadrature costs more than using it, so they are made
@@ -118,11 +90,6 @@ Worst worst(const Subject& subject, const LemmaEstimate& estimate, std::int64_t 
 
 }  // namespace
 
-std::span<const LemmaEstimate> estimates(int model) {
-  if (model == 1) return model1_estimates;
-  return model2_estimates;
-}
-
 double estimate_error(const Subject& subject, const LemmaEstimate& estimate, const std::vector<double>& x,
                       double delta) {
   return ErrorAt(subject, estimate, delta)(x);
@@ -141,7 +108,8 @@ void measure_whatever_delta(Finding& finding, const Subject& subject, const Lemm
       gap = {std::max(gap.largest, one.largest), std::min(gap.smallest, one.smallest)};
     }
     for (const double delta : sweep.deltas(N, subject.scene->period())) {
-      const double bound = constant(subject, estimate, fields, gap, delta);
+      const double bound =
+          estimate.constant({fields, subject.scheme.kernel, subject.scheme.nonlocal_divergence, gap, delta});
       const double ratio = worst(subject, estimate, N, delta).error / variable(estimate, gap.largest, delta);
       if (!std::isnan(point.h) && !worse(ratio / bound, point.value / point.upper)) continue;
       point = {N, gap.largest, delta, gap.largest, ratio, point.lower, bound};
@@ -159,9 +127,9 @@ Check check_of(const Subject& subject, const LemmaEstimate& estimate, const std:
 }  // namespace
 
 Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstimate& estimate, const Sweep& sweep) {
-  Check check = check_of(subject, estimate, claim(subject, estimate), {"delta", "whatever delta"}, Test::bounds);
+  Check check = check_of(subject, estimate, claim(estimate), {"delta", "whatever delta"}, Test::bounds);
   check.quantity += estimate.nonlocal ? " / h" : " / max(h, delta)";
-  if (subject.scheme.model == 2 && estimate.nonlocal) {
+  if (!estimate.second_term.empty()) {
     check.remark = "C h holds whatever delta, so the printed second term is not needed";
   }
   return {check, [=](Finding& finding) { measure_whatever_delta(finding, subject, estimate, sweep); }};
@@ -169,7 +137,7 @@ Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstima
 
 Measurement consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path) {
   Check check =
-      check_of(subject, estimate, claim(subject, estimate), {"path", path.name}, path.order ? Test::order : Test::rate);
+      check_of(subject, estimate, claim(estimate), {"path", path.name}, path.order ? Test::order : Test::rate);
   check.coordinates.push_back(unspoken({"delta", path.delta.text()}));
   check.theory_order = path.order.value_or(1.0);
   const bool settles = check.theory_order == 0.0, in_h = estimate.nonlocal || settles;
@@ -209,7 +177,7 @@ Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& est
 
 Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
                                  const std::vector<double>& ratios) {
-  const char* const term = estimate.viscous ? "h^3/delta^2" : "h^2/delta";
+  const std::string_view term = estimate.second_term;
   Check check = check_of(subject, estimate, fmt::format("grows like {} as delta -> 0", term),
                          {"delta", "delta -> 0 at fixed h"}, Test::order);
   check.variable = "delta";

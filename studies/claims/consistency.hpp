@@ -3,23 +3,11 @@
 /// @file
 /// Lemmas 2.3, 2.5, 3.2 and 3.4: how far an operator is from its limits. No time stepping.
 
-#include <span>
-
 #include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/reading/study_parts.hpp"
 
 namespace acstudy {
-
-/// One estimate of a lemma.
-struct LemmaEstimate {
-  std::string_view statement, quantity;
-  bool viscous;   ///< of D in Model II; else of all the rest
-  bool nonlocal;  ///< against the nonlocal model: vanishes with h; else against the PDE: with max(h, delta)
-};
-
-/// The estimates that lemmas give for a model.
-std::span<const LemmaEstimate> estimates(int model);
 
 /// What is left of the estimate at particles x: max over j of |operator - its limit|; of reach_j D_j itself for the
 /// viscous term against the PDE, whose limit is zero. A and D are told apart by mu, in which the operator is affine.
@@ -40,8 +28,8 @@ Measurement consistency_along(const Subject& subject, const LemmaEstimate& estim
 Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& estimate,
                                 const std::vector<std::int64_t>& N, double ratio);
 
-/// Sharpness of Lemma 3.2 as delta goes to zero at fixed h: whether errors grow as the printed h^2/delta and
-/// h^3/delta^2 would have it. They do not.
+/// Sharpness of Lemma 3.2 as delta goes to zero at fixed h: whether errors grow as its second term would have
+/// it. They do not.  @pre the estimate has one
 Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& estimate, std::int64_t N,
                                  const std::vector<double>& ratios);
 

@@ -72,22 +72,24 @@ struct Side {
   double end(std::ptrdiff_t k) const { return k == last ? 1.0 : std::min(side * (x[side * k] - x[0]) / delta, 1.0); }
 };
 
-/// The weights of Model I, or 2 delta |W_{j,k}| of Model II, nearest neighbor first.
+/// The weights W_k of Model I, or the masses 2 delta |W_{j,k}| of Model II, nearest neighbor first.
 template <Kernel K>
-std::vector<double> weights(int model, const K& kernel, const Side& at, CellForm form) {
+std::vector<double> weights(CellWeights of, const K& kernel, const Side& at, CellForm form) {
   std::vector<double> W(static_cast<std::size_t>(at.last));
   if (form == CellForm::difference) {
     const auto closed = [&](double z) {
-      if constexpr (IntegrableKernel<K>) return model == 1 ? kernel.first_moment(z) : kernel.mass(z);
+      if constexpr (IntegrableKernel<K>) {
+        if (of == CellWeights::masses) return kernel.mass(z);
+      }
       return kernel.first_moment(z);
     };
     double inner = 0.0;
     for (std::ptrdiff_t k = 1; k <= at.last; ++k) {
       const double outer = closed(at.end(k)), d = at.side * (at.x[at.side * k] - at.x[0]);
-      W[static_cast<std::size_t>(k - 1)] = model == 1 ? (outer - inner) / d : outer - inner;
+      W[static_cast<std::size_t>(k - 1)] = of == CellWeights::masses ? outer - inner : (outer - inner) / d;
       inner = outer;
     }
-  } else if (model == 1) {
+  } else if (of == CellWeights::moments_over_distance) {
     at.side < 0 ? upwind_weights<+1>(kernel, at.x, at.delta, W) : upwind_weights<-1>(kernel, at.x, at.delta, W);
   } else if constexpr (IntegrableKernel<K>) {
     at.side < 0 ? set_masses<-1>(kernel, at.x, at.delta, at.last, W.data() + at.last - 1)
@@ -97,23 +99,25 @@ std::vector<double> weights(int model, const K& kernel, const Side& at, CellForm
   return W;
 }
 
-/// int of eta, times s for Model I, from 0 to z.
+/// int of eta, or of s eta, from 0 to z.
 template <Kernel K>
-Exact exact_integral(int model, const K& kernel, const Exact& z) {
-  if constexpr (IntegrableKernel<K>) return model == 1 ? exact_moment(kernel, z) : exact_mass(kernel, z);
+Exact exact_integral(CellWeights of, const K& kernel, const Exact& z) {
+  if constexpr (IntegrableKernel<K>) {
+    if (of == CellWeights::masses) return exact_mass(kernel, z);
+  }
   return exact_moment(kernel, z);
 }
 
 /// The largest relative error of the weights on one side: of the 64 nearest, the last, and every sixteenth between.
 template <Kernel K>
-double error_of_weights(int model, const K& kernel, const Side& at, CellForm form) {
-  const std::vector<double> W = weights(model, kernel, at, form);
+double error_of_weights(CellWeights of, const K& kernel, const Side& at, CellForm form) {
+  const std::vector<double> W = weights(of, kernel, at, form);
   double largest = 0.0;
   for (std::ptrdiff_t k = 1; k <= at.last; ++k) {
     if (k > 64 && k % 16 != 0 && k != at.last) continue;
     const Exact inner = k == 1 ? Exact(0) : at.exact_end(k - 1);
-    Exact exact = exact_integral(model, kernel, at.exact_end(k)) - exact_integral(model, kernel, inner);
-    if (model == 1) exact /= at.distance(k);
+    Exact exact = exact_integral(of, kernel, at.exact_end(k)) - exact_integral(of, kernel, inner);
+    if (of == CellWeights::moments_over_distance) exact /= at.distance(k);
     const double error = relative_error(W[static_cast<std::size_t>(k - 1)], exact);
     if (worse(error, largest)) largest = error;
   }
@@ -163,7 +167,7 @@ Check check_of(const WeightsChoice& choice, const std::string& statement, const 
   return {.statement = statement,
           .claim = claim,
           .subject = "kernel " + choice.kernel.label(),
-          .coordinates = {{"of", what + (choice.model == 1 ? " of Model I" : " of Model II")}},
+          .coordinates = {{"of", what + fmt::format(" of {}", choice.model->name)}},
           .quantity = "max |value / exact - 1|",
           .variable = "delta/h"};
 }
@@ -180,8 +184,8 @@ Measurement round_off_of_weights(const WeightsChoice& choice, const std::vector<
   return {check, [=](Finding& finding) {
             with_kernel(choice.kernel, [&](const auto& kernel) {
               measure(finding, ratios, [&](const Side& left, const Side& right) {
-                const double on_left = error_of_weights(choice.model, kernel, left, form);
-                const double on_right = error_of_weights(choice.model, kernel, right, form);
+                const double on_left = error_of_weights(choice.model->cell_weights, kernel, left, form);
+                const double on_right = error_of_weights(choice.model->cell_weights, kernel, right, form);
                 return worse(on_right, on_left) ? on_right : on_left;
               });
             });

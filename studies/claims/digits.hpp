@@ -8,13 +8,13 @@
 
 #include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
-#include "studies/models/kernel_choice.hpp"
+#include "studies/models/model_card.hpp"
 
 namespace acstudy {
 
 /// The weights that are examined: a model's with a kernel.
 struct WeightsChoice {
-  int model;
+  const ModelCard* model;
   KernelChoice kernel;
 };
 
@@ -32,7 +32,7 @@ inline constexpr double digits_bound = 1e-13;
 /// @param ratios  delta/h, 0 < delta/h <= 1e5; up to 16 particles are examined at each, one from 1000 on
 Measurement round_off_of_weights(const WeightsChoice& choice, const std::vector<double>& ratios, CellForm form);
 
-/// The same of N_j.  @pre choice.model == 2
+/// The same of N_j.  @pre the model is renormalized
 Measurement round_off_of_renormalization(const WeightsChoice& choice, const std::vector<double>& ratios);
 
 /// The largest relative error of the gaps that the flow of b = sin(x) gives N particles from the uniform start. With

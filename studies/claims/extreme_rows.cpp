@@ -5,7 +5,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "solver/time/integrate.hpp"
 #include "studies/claims/stability.hpp"
+#include "studies/models/control_choice.hpp"
 
 namespace acstudy {
 
@@ -46,11 +48,12 @@ std::shared_ptr<const Scene> scene_named(std::string_view name) {
 }
 
 Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene>& scene, Arrangement arrangement) {
-  return {scheme, scheme.model == 2 ? scene->max_relative_velocity() : 0.0, scene, arrangement};
+  return {scheme, scheme.model->viscous ? scene->max_relative_velocity() : 0.0, scene, arrangement};
 }
 
-Subject mistaken(Subject subject, std::string_view model1, std::string_view model2) {
-  subject.scheme.control = subject.scheme.model == 1 ? model1 : model2;
+std::optional<Subject> mistaken(Subject subject, std::string_view control) {
+  if (control.empty()) return std::nullopt;
+  subject.scheme.control = find_control(control);
   subject.scheme.nonlocal_divergence = false;
   return subject;
 }
@@ -66,7 +69,7 @@ std::vector<SchemeChoice> standing_schemes(const Extremes& extremes) {
 }
 
 double step_at_cfl_one(Subject subject, const std::vector<double>& x, double delta) {
-  subject.scheme.control.clear();
+  subject.scheme.control = nullptr;
   PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
   return largest_step(subject, placed, StepCondition::corrected);
 }
@@ -74,7 +77,7 @@ double step_at_cfl_one(Subject subject, const std::vector<double>& x, double del
 State run_freely(const Subject& subject, State start, double delta, double T, std::int64_t steps, const Seen& seen) {
   const Scene& scene = *subject.scene;
   const std::size_t count = start.x.size();
-  const std::unique_ptr<Scheme> scheme = make_scheme(subject.scheme, scene, subject.mu);
+  const std::unique_ptr<AnyScheme> scheme = make_scheme(subject.scheme, scene, subject.mu);
   Particles particles(count, scene.period(), delta);
   std::optional<Trajectories> trajectories;
   if (!scene.standing()) trajectories.emplace(scene, start.x);

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/time/integrators.hpp"
+#include "solver/time/steps.hpp"
 #include "studies/cases/measurement.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/claims/extremes.hpp"
@@ -60,24 +60,23 @@ inline Coordinate velocity_is(const std::string& c) { return {"c", c, "c = " + c
 /// "scene lagrangian"
 inline Coordinate on_scene(const std::string& name) { return {"scene", name, "scene " + name}; }
 
-/// A scheme on a scene, with the viscosity bound of the scene if it is Model II.
+/// A scheme on a scene, with the viscosity bound of the scene if its model is viscous.
 Subject subject_on(const SchemeChoice& scheme, const std::shared_ptr<const Scene>& scene,
                    Arrangement arrangement = Arrangement::uniform);
-/// The same with a mistake of solver/controls, made with the local divergence: `model1` or `model2` by the model.
-Subject mistaken(Subject subject, std::string_view model1, std::string_view model2);
+/// The same with a control's mistake, made with the local divergence; nothing where a card names no such mistake.
+std::optional<Subject> mistaken(Subject subject, std::string_view control);
 
 /// The schemes, each once, where particles stand still and the divergence is of no matter.
 std::vector<SchemeChoice> standing_schemes(const Extremes& extremes);
 
 /// Round-off of a sum over the neighbors of a particle whose terms sum to one: an ulp per neighbor and eight more.
 inline double row_round_off(const Particles& particles) { return (2.0 * particles.windows.widest + 8.0) * epsilon; }
-/// Round-off of a forward Euler step within CFL 1, relative to max |u|. In Model II the terms of D sum to two, one with
-/// u_j and one with its neighbors, and those of A to no more.
+/// Round-off of a forward Euler step within CFL 1, relative to max |u|.
 inline double step_round_off(const Subject& subject, const Particles& particles) {
-  return (subject.scheme.model == 2 ? 4.0 : 1.0) * row_round_off(particles);
+  return subject.scheme.model->row_terms * row_round_off(particles);
 }
 
-/// The largest step of the scheme itself, also for one with a mistake: c_hat dt sum W_k = 1 or its twin in Model II.
+/// The largest step of the scheme itself, also for one with a mistake: `StepLemma::row_by_row`.
 double step_at_cfl_one(Subject subject, const std::vector<double>& x, double delta);
 
 /// Particles at a final time.

@@ -68,17 +68,18 @@ Point drift_of(const MassRun& run, std::int64_t N) {
 void add_conserved(ExtremeRows& rows, const SchemeChoice& scheme) {
   struct Velocity {
     std::string c, claim;
-    bool model2_alone;
+    bool any_sign;
   };
   const std::vector<Velocity> velocities = {
       {"1", "standing, equal gaps, c constant: conserved to round-off", false},
       {"1 + sin(2*pi*x)/2", "standing, equal gaps, c > 0 varying: conserved to round-off", false},
-      {"sin(2*pi*x)", "standing, equal gaps, c of both signs: Model II conserves to round-off", true}};
+      {"sin(2*pi*x)",
+       fmt::format("standing, equal gaps, c of both signs: {} conserves to round-off", scheme.model->name), true}};
   const auto measure = [](Finding& row, const Subject& subject) {
     for (const double ratio : {0.5, 3.5}) row.points.push_back(drift_of({subject, 0.25, ratio, {}}, 80));
   };
   for (const Velocity& velocity : velocities) {
-    if (velocity.model2_alone && scheme.model == 1) continue;
+    if (velocity.any_sign && !scheme.model->conserves_any_sign) continue;
     const auto named = [&](const Subject& subject) {
       return subject.check(statement, velocity.claim, {velocity_is(velocity.c), {"bound", "to round-off"}}, quantity);
     };
@@ -122,10 +123,11 @@ void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme) {
   if (!scheme.nonlocal_divergence) {
     // exp(2 pi T), by which u grows where c changes sign, is 2.2.
     const Subject both_signs = subject_on(scheme, scene_with("sin(2*pi*x)"));
-    if (scheme.model == 1) {
+    if (!scheme.model->conserves_any_sign) {
       add(both_signs, 0.125, velocity_is("sin(2*pi*x)"));
-      add_control({both_signs, 0.125, {}, 0.1}, velocity_is("sin(2*pi*x)"),
-                  "the nonlocal Model I does not conserve at zeros of c, however small h is");
+      add_control(
+          {both_signs, 0.125, {}, 0.1}, velocity_is("sin(2*pi*x)"),
+          fmt::format("the nonlocal {} does not conserve at zeros of c, however small h is", scheme.model->name));
     }
     for (const std::string c : {"1", "1 + sin(2*pi*x)/2"}) {
       Subject jittered = subject_on(scheme, scene_with(c), Arrangement::jittered);
@@ -135,8 +137,8 @@ void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme) {
   }
   const Subject moving = subject_on(scheme, scene_named("lee-du-2019"));
   add(moving, moving.scene->T(), on_scene("lee-du-2019"));
-  add_control({mistaken(moving, "no divergence term", "no divergence term"), moving.scene->T(), 3.5, {}},
-              on_scene("lee-du-2019"), "without b' u there is more mass where the volumes grow");
+  add_control({*mistaken(moving, "no divergence term"), moving.scene->T(), 3.5, {}}, on_scene("lee-du-2019"),
+              "without b' u there is more mass where the volumes grow");
 }
 
 }  // namespace

@@ -106,9 +106,10 @@ void add_nearest(ExtremeRows& rows, const SchemeChoice& scheme) {
                                      {{"of", "first moment"}}, "max |first moment - 1|"));
   };
   rows.add(moment_of(subject), [=](Finding& row) { at_each(row, subject, first_moment); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
-  rows.add_control(moment_of(wrong), "a part of the kernel is missing",
-                   [=](Finding& row) { at_each(row, wrong, first_moment); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(moment_of(*wrong), "a part of the kernel is missing",
+                     [=](Finding& row) { at_each(row, *wrong, first_moment); });
+  }
 
   const auto norm_at = [&](double cfl) {
     return but_for_one_gap(subject.check(coincident, "a gap of one ulp, c constant: a step at CFL 1 has the max norm 1",

@@ -5,7 +5,6 @@
 
 #include "studies/claims/extreme_rows.hpp"
 #include "studies/claims/identities.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/claims/stability.hpp"
 
 namespace acstudy {
@@ -91,9 +90,8 @@ void take_ten_steps(Finding& row, const Subject& subject, std::int64_t N) {
   const State end = run_freely(subject, {x, u}, delta, T, steps);
   subject.scene->u(x, T, exact);
   for (std::size_t j = 0; j < x.size(); ++j) exact[j] -= end.u[j];
-  // Lemma 2.5; both parts of Lemma 3.4 with F_zz = c u_xx and mu = c; (u_t + u_x) of forward Euler. A weight errs by an
-  // ulp of a position over a gap.
-  const double space = std::max(h, delta) * (subject.scheme.model == 1 ? 0.5 : 1.0) * fields.u_2;
+  // The lemma against the PDE, and (u_t + u_x) of forward Euler. A weight errs by an ulp of a position over a gap.
+  const double space = std::max(h, delta) * subject.scheme.model->pde_constant * fields.u_2;
   const double round_off = 16.0 * epsilon + 4.0 * dt * fields.u_1 * epsilon / h;
   row.points.push_back({.N = N,
                         .h = h,
@@ -121,9 +119,10 @@ void add_many_particles(ExtremeRows& rows, const SchemeChoice& scheme, std::int6
                      {at_ratio(1.45), {"cfl", 0.25, "CFL 1/4"}}, "max |u - exact|");
   };
   rows.add(steps_of(subject), [=](Finding& row) { take_ten_steps(row, subject, most); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
-  rows.add_control(steps_of(wrong), "a scheme that is not consistent",
-                   [=](Finding& row) { take_ten_steps(row, wrong, fewer); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(steps_of(*wrong), "a scheme that is not consistent",
+                     [=](Finding& row) { take_ten_steps(row, *wrong, fewer); });
+  }
 }
 
 // ------------------------------------------------------------------------------------------------------------- delta/h
@@ -145,11 +144,10 @@ void compare_rates_below(Finding& row, const Subject& subject, const std::vector
       const std::vector<double> rate = placed.rate(u);
       Point point{.N = 48, .h = gap.largest, .delta = ratio * gap.smallest, .variable = ratio, .value = 0.0};
       for (std::size_t j = 0; j < x.size(); ++j) {
-        const double off = std::abs(rate[j] - expected[j]) / printed_rate(subject, x, u, gap.smallest * 0.9, j).size;
+        const double off = std::abs(rate[j] - expected[j]) / subject.printed_rate(x, u, gap.smallest * 0.9, j).size;
         if (worse(off, point.value)) point.value = off;
       }
-      // In Model II delta is in the weights and in N_j, and cancels but for its round-off.
-      point.upper = subject.scheme.model == 1 ? 0.0 : 2.0 * row_round_off(placed.particles());
+      point.upper = subject.scheme.model->nearest.bit_by_bit ? 0.0 : 2.0 * row_round_off(placed.particles());
       row.points.push_back(point);
     }
   }
@@ -162,8 +160,9 @@ void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
                    above = {"delta/h_min", 4.0, "delta = 4 h_min"};
   const auto same = [&](const Coordinate& horizon) {
     return subject.check(horizons,
-                         scheme.model == 1 ? "below every gap the rates are the same, bit by bit, whatever delta"
-                                           : "below every gap the rates are the same to round-off, whatever delta",
+                         scheme.model->nearest.bit_by_bit
+                             ? "below every gap the rates are the same, bit by bit, whatever delta"
+                             : "below every gap the rates are the same to round-off, whatever delta",
                          {{"of", "rates"}, horizon}, "max |rate - rate at 0.9 h_min| / sum of |terms|");
   };
   rows.add(same(below), [=](Finding& row) { compare_rates_below(row, subject, below_every_gap); });
@@ -172,8 +171,7 @@ void add_below_every_gap(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
 
   const auto difference = [&](const Coordinate& horizon) {
     return subject.check(horizons,
-                         scheme.model == 1 ? "below every gap Model I is the upwind difference (Remark 2.1)"
-                                           : "below every gap Model II is the central difference with viscosity",
+                         fmt::format("below every gap {} is {}", scheme.model->name, scheme.model->nearest.in_words),
                          {{"of", "matrix"}, horizon}, "max |row - that of the difference| h_min / max|c_hat|");
   };
   rows.add(difference(below), [=](Finding& row) {
@@ -214,14 +212,14 @@ void add_largest_horizon(ExtremeRows& rows, const SchemeChoice& scheme, Arrangem
   const Coordinate largest = {"delta", "just below period/2", "delta just below period/2"};
 
   const auto moment = [&](const Subject& one) {
-    return one.check(horizons,
-                     scheme.model == 1 ? "at the largest, sum d_k W_k = 1" : "at the largest, sum z_k W_k / N_j = 1",
+    return one.check(horizons, fmt::format("at the largest, {}", scheme.model->weights.first_moment_claim),
                      {largest, {"of", "first moment"}}, "max |sum - 1|");
   };
   rows.add(moment(subject), [=](Finding& row) { adopt(row, first_moment_is_one(subject, sweep)); });
-  const Subject wrong = mistaken(subject, "no tail weight", "no renormalization");
-  rows.add_control(moment(wrong), "a part of the kernel is missing",
-                   [=](Finding& row) { adopt(row, first_moment_is_one(wrong, sweep)); });
+  if (const auto wrong = mistaken(subject, scheme.model->mistakes.inconsistent)) {
+    rows.add_control(moment(*wrong), "a part of the kernel is missing",
+                     [=](Finding& row) { adopt(row, first_moment_is_one(*wrong, sweep)); });
+  }
 
   const auto norm = [&](double cfl) {
     return subject.check(horizons, "at the largest, c constant: a step at CFL 1 has the max norm 1",
@@ -249,10 +247,10 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
   const FieldBounds fields = field_bounds(scene, 0.0);
   std::vector<double> u(x.size());
   scene.u(x, 0.0, u);
-  // The central difference of the spline kernel's Model II below every gap, or the upwind one of Model I.
+  // The central difference of Model II with any kernel below every gap, or the upwind one of Model I.
   Subject nearest = subject;
   if (!upwind)
-    nearest = {{.model = 2, .nonlocal_divergence = false, .kernel = {"cubic-spline"}},
+    nearest = {{.model = &model_two, .nonlocal_divergence = false, .kernel = integrable_kernel()},
                0.0,
                subject.scene,
                subject.arrangement};
@@ -260,7 +258,7 @@ void approach_upwind(Finding& row, const Subject& subject, bool upwind) {
   const std::vector<double> expected = limit.rate(u);
   for (const double alpha : {1.9, 1.99, 1.999, 1.999999}) {
     Subject close = subject;
-    close.scheme.kernel.alpha = alpha;
+    close.scheme.kernel.parameter = alpha;
     PlacedScheme placed(close.scheme, scene, close.mu, x, delta);
     std::vector<double> off = placed.rate(u);
     for (std::size_t j = 0; j < off.size(); ++j) off[j] -= expected[j];
@@ -284,11 +282,11 @@ void add_singular_kernels(ExtremeRows& rows, const SchemeChoice& scheme) {
     conditions.emplace_back("to", to, to + " difference");
     Check check =
         subject.check(exponents, claim, conditions, fmt::format("max |rate - that of the {} difference|", to), test);
-    check.subject.replace(check.subject.rfind("power"), std::string::npos, "power(alpha)");
+    check.subject.replace(check.subject.rfind(scheme.kernel.name), std::string::npos, scheme.kernel.name + "(alpha)");
     check.theory_order = 1.0;
     return check;
   };
-  const std::string to_upwind = "Model I goes to the upwind difference like 2 - alpha";
+  const std::string to_upwind = fmt::format("{} goes to the upwind difference like 2 - alpha", scheme.model->name);
   rows.add(named(to_upwind, Test::order, "upwind"), [=](Finding& row) { approach_upwind(row, subject, true); });
   rows.add_control(
       named(to_upwind, Test::order, "central"), "it does not go to the central difference",
@@ -318,7 +316,8 @@ void add_rows_of_resolution(ExtremeRows& rows, const Extremes& extremes) {
   // Once a divergence, whatever alpha the study gives.
   for (const bool nonlocal : {false, true}) {
     const auto singular = std::find_if(extremes.schemes.begin(), extremes.schemes.end(), [&](const SchemeChoice& one) {
-      return one.model == 1 && one.kernel.name == "power" && one.nonlocal_divergence == nonlocal;
+      const auto& parameter = one.kernel.row().parameter;
+      return one.model->upwind && parameter && parameter->singular_at_two && one.nonlocal_divergence == nonlocal;
     });
     if (singular != extremes.schemes.end()) add_singular_kernels(rows, *singular);
   }

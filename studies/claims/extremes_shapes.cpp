@@ -76,8 +76,8 @@ void carry(Finding& row, const Subject& subject, Followed followed) {
 
 void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
-  const Subject wrong = mistaken(subject, "downwind", "no viscosity"),
-                classical = mistaken(subject, "downwind", "SPH sum");
+  const Mistakes& mistakes = scheme.model->mistakes;
+  const auto wrong = mistaken(subject, mistakes.not_monotone), classical = mistaken(subject, mistakes.classical);
   const auto add = [&](const std::string& claim, const std::string& quantity, Followed followed) {
     const auto named = [&](const Subject& one) {
       return one.check(statement, claim,
@@ -86,10 +86,12 @@ void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arr
                        quantity);
     };
     rows.add(named(subject), [=](Finding& row) { carry(row, subject, followed); });
-    rows.add_control(named(wrong), "a scheme that is not monotone", [=](Finding& row) { carry(row, wrong, followed); });
-    if (scheme.model == 2) {
-      rows.add_control(named(classical), "the classical sum is not monotone",
-                       [=](Finding& row) { carry(row, classical, followed); });
+    const auto add_control = [&](const Subject& one, const std::string& why) {
+      rows.add_control(named(one), why, [=](Finding& row) { carry(row, one, followed); });
+    };
+    if (wrong) add_control(*wrong, "a scheme that is not monotone");
+    if (classical) {
+      add_control(*classical, "the classical sum is not monotone");
     }
   };
   add("c constant: no over- or undershoot up to CFL 1", "largest excursion from [0, 1]", Followed::range);

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "studies/claims/extreme_rows.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/claims/stability.hpp"
 
 namespace acstudy {
@@ -49,12 +48,13 @@ void add_no_velocity(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement 
   rows.add_control(named(moved, velocity_is("1e-12")), "a velocity, however small",
                    [=](Finding& row) { rest(row, moved); });
 
-  if (scheme.model == 1) return;
+  if (!scheme.model->viscous) return;
   Subject viscous = still;
   viscous.mu = 1.0;
   const auto diffusion = [&](double cfl) {
-    return viscous.check("c = 0", "with mu = 1 Model II is a diffusion: a step at CFL 1 has the max norm 1",
-                         {at_cfl(cfl)}, "max norm of I + dt R");
+    return viscous.check(
+        "c = 0", fmt::format("with mu = 1 {} is a diffusion: a step at CFL 1 has the max norm 1", scheme.model->name),
+        {at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto step = [=](Finding& row, double cfl) {
     row.points = step_is_bounded(viscous, {{N}, ratios, {}}, StepCondition::corrected, cfl).take().points;
@@ -74,7 +74,7 @@ void rate_of_constants(Finding& row, const Subject& subject) {
     const std::vector<double> at(x.begin(), x.end());
     Point worst{.value = 0.0};
     for (std::size_t j = 0; j < rate.size(); ++j) {
-      const double relative = std::abs(rate[j]) / printed_rate(subject, at, one, placed.particles().delta, j).size;
+      const double relative = std::abs(rate[j]) / subject.printed_rate(at, one, placed.particles().delta, j).size;
       if (worse(relative, worst.value)) worst.value = relative;
     }
     worst.upper = row_round_off(placed.particles());
@@ -120,8 +120,7 @@ void leave_of_equation(Finding& row, const Subject& subject, bool to_round_off) 
     const auto source = make_source(subject.scheme, scene, subject.mu, false, placed.particles().delta);
     const auto x = placed.particles().x.values();
     const double widest = gaps({x.begin(), x.end()}, scene.period()).largest;
-    // B is the average of b' over half of the horizon, G[b] over all of it.
-    const double part = subject.scheme.model == 1 ? 0.5 : 0.25;
+    const double part = subject.scheme.model->divergence_part;
     const double divergence = part * std::max(widest, placed.particles().delta) * fields.b_2 * fields.u;
     // u_t, c u_x and b u_x, c' u and b' u, each with a few roundings; c has at most the norm of b.
     const double round_off = 16.0 * epsilon * (2.0 * fields.u_1 + fields.b_1 * fields.u);
@@ -161,7 +160,7 @@ void add_lagrangian(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement a
                          {on_scene("lagrangian"), {"bound", "to O(max(h, delta))"}}, "max |rate + f - du/dt|");
   };
   rows.add(consistent(with_nonlocal), [=](Finding& row) { leave_of_equation(row, with_nonlocal, false); });
-  const Subject without = mistaken(with_local, "no divergence term", "no divergence term");
+  const Subject without = *mistaken(with_local, "no divergence term");
   rows.add_control(consistent(without), "b' u is missing",
                    [=](Finding& row) { leave_of_equation(row, without, false); });
 
@@ -190,7 +189,7 @@ void rate_at_zero(Finding& row, const Subject& subject, const Subject& as) {
   at_every_horizon(row, subject, [&](PlacedScheme& placed) {
     const std::vector<double> u = uneven_values(placed.size()), rate = placed.rate(u);
     const auto x = placed.particles().x.values();
-    const PrintedRate printed = printed_rate(as, {x.begin(), x.end()}, u, placed.particles().delta, 0);
+    const PrintedRate printed = as.printed_rate({x.begin(), x.end()}, u, placed.particles().delta, 0);
     return Point{.value = std::abs(rate[0] - printed.value) / printed.size,
                  .upper = 2.0 * row_round_off(placed.particles())};
   });
@@ -230,13 +229,16 @@ void add_zero_of_velocity(ExtremeRows& rows, const SchemeChoice& scheme) {
                        "|rate_0 - printed sum| / sum of |terms|");
     };
     rows.add(named(subject), [=](Finding& row) { rate_at_zero(row, subject, subject); });
-    const Subject wrong = mistaken(subject, "downwind", "no viscosity");
-    rows.add_control(named(wrong), "a scheme with a mistake", [=](Finding& row) { rate_at_zero(row, wrong, subject); });
-    if (scheme.model != 1) continue;
+    if (const auto wrong = mistaken(subject, scheme.model->mistakes.not_monotone)) {
+      rows.add_control(named(*wrong), "a scheme with a mistake",
+                       [=](Finding& row) { rate_at_zero(row, *wrong, subject); });
+    }
+    if (!scheme.model->upwind) continue;
     const auto side = [&](const Subject& one, const std::string& c) {
       std::vector<Coordinate> all = conditions(c);
       all.emplace_back("of", "side");
-      return one.check(zero, "Model I looks right where c_hat is zero", all, "share of neighbors on the right");
+      return one.check(zero, fmt::format("{} looks right where c_hat is zero", scheme.model->name), all,
+                       "share of neighbors on the right");
     };
     rows.add(side(subject, fields.c), [=](Finding& row) { side_at_zero(row, subject); });
     if (fields.b) continue;

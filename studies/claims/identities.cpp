@@ -78,43 +78,6 @@ Measurement over_horizons(Check check, const Subject& subject, const Sweep& swee
   return {std::move(check), [=](Finding& finding) { finding.points = worst_points(subject, sweep, of); }};
 }
 
-std::string either(const Subject& subject, const char* model1, const char* model2) {
-  return subject.scheme.model == 1 ? model1 : model2;
-}
-
-/// The entries at j - 1, j, j + 1 of the upwind difference, or of the central one with the viscosity of the nearest
-/// neighbors.
-std::array<double, 3> row_of_difference(const Subject& subject, const PlacedScheme& placed, std::ptrdiff_t j) {
-  const Scene& scene = *subject.scene;
-  const auto at = [&](double x, bool of_b) {
-    double c = 0.0, b = 0.0;
-    scene.c({&x, 1}, {&c, 1});
-    if (!scene.standing()) scene.b({&x, 1}, {&b, 1});
-    return of_b ? b : c - b;
-  };
-  const bool nonlocal_divergence = subject.scheme.nonlocal_divergence && !scene.standing();
-  const double* const y = placed.particles().x.at(j);
-  const double left = y[0] - y[-1], right = y[1] - y[0];
-  double b_prime = 0.0;
-  if (!scene.standing()) scene.b_prime({y, 1}, {&b_prime, 1});
-  std::array<double, 3> near = {0.0, 0.0, 0.0};
-  if (subject.scheme.model == 1) {
-    const bool looks_left = at(y[0], false) > 0.0;
-    const double s = looks_left ? 1.0 : -1.0, d = looks_left ? left : right, i = looks_left ? y[-1] : y[1];
-    if (nonlocal_divergence) b_prime = s * (at(y[0], true) - at(i, true)) / d;
-    near[looks_left ? 0 : 2] = s * at(i, false) / d;
-    near[1] = -s * at(y[0], false) / d - b_prime;
-  } else {
-    const double to_left = 0.5 * (y[0] + y[-1]), to_right = 0.5 * (y[0] + y[1]), both = left + right;
-    if (nonlocal_divergence) b_prime = 2.0 * (at(to_right, true) - at(to_left, true)) / both;
-    const double viscosity = subject.mu * std::max({left, right, placed.particles().delta});
-    near[0] = (at(to_left, false) + viscosity / left) / both;
-    near[2] = (-at(to_right, false) + viscosity / right) / both;
-    near[1] = (at(to_left, false) - at(to_right, false) - viscosity / left - viscosity / right) / both - b_prime;
-  }
-  return near;
-}
-
 /// The largest difference of any entry of the operator to that row, in units of max|c_hat| / h_min.
 Point distance_to_difference(const Subject& subject, const std::vector<double>& x, double ratio) {
   const Scene& scene = *subject.scene;
@@ -122,9 +85,11 @@ Point distance_to_difference(const Subject& subject, const std::vector<double>& 
   PlacedScheme placed(subject.scheme, scene, subject.mu, x, ratio * gap.smallest);
   const PlacedScheme::Rows rows = placed.rows();
   const std::ptrdiff_t n = std::ssize(x);
+  const Particles& particles = placed.particles();
   double largest = 0.0;
   for (std::ptrdiff_t j = 0; j < n; ++j) {
-    const std::array<double, 3> near = row_of_difference(subject, placed, j);
+    const std::array<double, 3> near =
+        subject.scheme.model->nearest.row(subject.scheme, scene, subject.mu, particles.delta, particles.x.at(j));
     for (std::size_t k = 0; k < rows.width; ++k) {
       const std::ptrdiff_t offset = (rows.first + static_cast<std::ptrdiff_t>(k) + 1 + n) % n;
       const double expected = offset < 3 ? near[static_cast<std::size_t>(offset)] : 0.0;
@@ -143,11 +108,10 @@ Point distance_to_difference(const Subject& subject, const std::vector<double>& 
 }  // namespace
 
 Measurement nearest_neighbor_rows(const Subject& subject, const std::vector<std::int64_t>& N, double ratio) {
-  Check check =
-      subject.check(either(subject, "Remark 2.1", "Remark 2.1 for Model II"),
-                    either(subject, "the upwind difference", "central difference and nearest-neighbor viscosity"),
-                    {{"delta/h_min", ratio, fmt::format("delta = {:g} h_min", ratio)}},
-                    "max |row - that of the difference| h_min / max|c_hat|");
+  const NearestNeighbors& nearest = subject.scheme.model->nearest;
+  Check check = subject.check(std::string(nearest.statement), std::string(nearest.claim),
+                              {{"delta/h_min", ratio, fmt::format("delta = {:g} h_min", ratio)}},
+                              "max |row - that of the difference| h_min / max|c_hat|");
   if (ratio > 1.0) {
     check.be_control("farther neighbors count");
     check.promised = Verdict::violated;
@@ -162,13 +126,14 @@ Measurement nearest_neighbor_rows(const Subject& subject, const std::vector<std:
 }
 
 Measurement weights_are_not_negative(const Subject& subject, const Sweep& sweep) {
-  const bool first = subject.scheme.model == 1;
-  const Check check = subject.check(either(subject, "Remark 2.2", "Remark 2.2 for Model II"),
-                                    first ? "W_k >= 0" : "sign(k) W_k >= 0", {{"of", "weights"}}, "max -W_k h");
+  const bool one_sided = subject.scheme.model->upwind;
+  const WeightClaims& claims = subject.scheme.model->weights;
+  const Check check = subject.check(std::string(claims.not_negative), std::string(claims.not_negative_claim),
+                                    {{"of", "weights"}}, "max -W_k h");
   return over_horizons(check, subject, sweep, [=](const View& particle) {
     double largest = -HUGE_VAL;
     for (std::size_t k = 0; k < particle.z.size(); ++k) {
-      const double negative = first || particle.z[k] > 0.0 ? -particle.W[k] : particle.W[k];
+      const double negative = one_sided || particle.z[k] > 0.0 ? -particle.W[k] : particle.W[k];
       if (worse(negative, largest)) largest = negative;
     }
     return Measured{largest * particle.h, 0.0};
@@ -176,8 +141,8 @@ Measurement weights_are_not_negative(const Subject& subject, const Sweep& sweep)
 }
 
 Measurement first_moment_is_one(const Subject& subject, const Sweep& sweep) {
-  Check check = subject.check(either(subject, "Remark 2.2", "(3.4), first moment"),
-                              either(subject, "sum d_k W_k = 1", "sum (x_i - x_j) W_k / N_j = 1"),
+  const WeightClaims& claims = subject.scheme.model->weights;
+  Check check = subject.check(std::string(claims.first_moment), std::string(claims.first_moment_claim),
                               {{"of", "first moment"}}, "max |sum - 1|");
   check.remark = "bound: an ulp per neighbor and four more, and an ulp of a position relative to a gap";
   return over_horizons(check, subject, sweep, [](const View& particle) {

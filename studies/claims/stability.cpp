@@ -12,17 +12,16 @@ double largest_step(const Subject& subject, PlacedScheme& placed, StepCondition 
   const auto x = particles.x.values();
   if (condition == StepCondition::printed) {
     const double smallest = gaps({x.begin(), x.end()}, particles.period).smallest;
-    return lemma_step(subject.scheme, smallest, subject.scene->max_relative_velocity(), subject.mu);
+    return smallest / subject.scheme.model->step_lemma.speed(*subject.scene, subject.mu);
   }
-  return 1.0 / placed.scheme().strongest_decay();
+  return 1.0 / placed.scheme().rows()->strongest_decay();
 }
 
 namespace {
 
-/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum. The terms of Model I sum to about one, those of D in
-/// Model II to two, and those of A to no more.
+/// 1 + dt (||c_hat'|| + ||b'||) and the round-off of a row sum.
 double norm_bound(const Subject& subject, const PlacedScheme& placed, double dt, double growth) {
-  const double terms = (subject.scheme.model == 2 ? 4.0 : 1.0) * (2.0 * placed.particles().windows.widest + 8.0);
+  const double terms = subject.scheme.model->row_terms * (2.0 * placed.particles().windows.widest + 8.0);
   return 1.0 + dt * growth + terms * std::numeric_limits<double>::epsilon();
 }
 
@@ -36,7 +35,7 @@ void measure_norms(Finding& finding, const Subject& subject, const Sweep& sweep,
                    double growth) {
   // A control is stepped as the scheme that it is taken for.
   SchemeChoice itself = subject.scheme;
-  itself.control.clear();
+  itself.control = nullptr;
   for (const std::int64_t N : sweep.N) {
     const double h = subject.scene->period() / static_cast<double>(N);
     for (const double delta : sweep.deltas(N, subject.scene->period())) {
@@ -80,9 +79,9 @@ constexpr const char* bounded = "norm <= 1 + dt (||c_hat'|| + ||b'||)";
 
 Measurement step_is_bounded(const Subject& subject, const Sweep& sweep, StepCondition condition, double cfl) {
   const bool corrected = condition == StepCondition::corrected;
+  const StepLemma& lemma = subject.scheme.model->step_lemma;
   const double growth = growth_rate(*subject.scene, subject.t());
-  Check check = subject.check(subject.scheme.model == 1 ? (corrected ? "Lemma 2.4, row by row" : "Lemma 2.4")
-                                                        : (corrected ? "Lemma 3.3, corrected" : "Lemma 3.3"),
+  Check check = subject.check(std::string(corrected ? lemma.row_by_row : lemma.name),
                               growth == 0.0 ? "maximum principle" : bounded, {at_cfl(cfl)}, "max norm of I + dt R");
   check.variable = "delta/h";
   if (cfl > 1.0) {
@@ -94,7 +93,7 @@ Measurement step_is_bounded(const Subject& subject, const Sweep& sweep, StepCond
 
 Measurement printed_condition_on_uneven_gaps(const Subject& subject, const std::vector<std::int64_t>& N) {
   Check check =
-      subject.check("Lemma 3.3", bounded,
+      subject.check(std::string(subject.scheme.model->step_lemma.name), bounded,
                     {{"gaps", "h/2 h/2 3h/2 3h/2 ..."}, {"delta", "just below 2h", "delta just below 2h"}, at_cfl(1.0)},
                     "max norm of I + dt R");
   check.coordinates.front() = {"arrangement", "uneven gaps"};

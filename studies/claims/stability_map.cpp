@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "studies/claims/stability.hpp"
 
@@ -19,20 +20,24 @@ constexpr double round_off = 1e-11;
 
 /// What the bounds on a subject's steps are made of.
 struct Constants {
-  double C;      ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant
-  double b_1;    ///< ||b'||
-  double speed;  ///< max |c_hat|
+  double C;            ///< ||c_hat'|| + ||b'||, exactly 0 where both fields are constant
+  double b_1;          ///< ||b'||
+  double speed;        ///< max |c_hat|
+  double lemma_speed;  ///< `StepLemma::speed`
 
-  explicit Constants(const Subject& subject) : speed(subject.scene->max_relative_velocity()) {
+  explicit Constants(const Subject& subject)
+      : speed(subject.scene->max_relative_velocity()),
+        lemma_speed(subject.scheme.model->step_lemma.speed(*subject.scene, subject.mu)) {
     const FieldBounds fields = field_bounds(*subject.scene, 0.0);
     C = fields.c_hat_1 + fields.b_1;
     b_1 = fields.b_1;
   }
 };
 
-/// Model II: mu reach_j >= max|c_hat| |x_i - x_j| for all neighbors, so that no neighbor's coefficient is negative.
+/// A viscous model: mu reach_j >= max|c_hat| |x_i - x_j| for all neighbors, so that no neighbor's coefficient is
+/// negative.
 bool viscosity_suffices(const Subject& subject, const PlacedScheme& placed, double speed) {
-  if (subject.scheme.model == 1) return true;
+  if (!subject.scheme.model->viscous) return true;
   const Particles& particles = placed.particles();
   for (std::ptrdiff_t j = 0; j < std::ssize(particles.x); ++j) {
     const double* const x = particles.x.at(j);
@@ -50,14 +55,14 @@ struct Frozen {
 
   Frozen(const Subject& subject, const Constants& constants, const std::vector<double>& x, double delta) {
     PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
-    R = sparse_rates(subject, placed);
-    lemma = lemma_step(subject.scheme, gaps(x, subject.scene->period()).smallest, constants.speed, subject.mu);
+    R = sparse_rates(placed);
+    lemma = gaps(x, subject.scene->period()).smallest / constants.lemma_speed;
     const auto decay = [&] {
-      if (subject.scheme.control.empty()) return placed.scheme().strongest_decay();
+      if (subject.scheme.control == nullptr) return placed.scheme().rows()->strongest_decay();
       // A control is stepped as the scheme that it is taken for.
       SchemeChoice itself = subject.scheme;
-      itself.control.clear();
-      return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().strongest_decay();
+      itself.control = nullptr;
+      return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().rows()->strongest_decay();
     };
     rows = viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
   }
@@ -65,7 +70,7 @@ struct Frozen {
 
 /// The largest dt at which the integrator's stability function phi(C dt) has no pole yet.
 double up_to_the_pole(const Integrator& integrator, double C) {
-  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.implicit_stages.front().diagonal * C) : unbounded;
+  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.diagonal(1) * C) : unbounded;
 }
 
 /// phi(C dt), to which theory bounds the norm of a step within the condition; infinite beyond the pole.
@@ -97,15 +102,13 @@ Measurement bounded_if_at_all(const Check& check, std::function<void(Finding&)> 
           }};
 }
 
-std::string lemma_of(const Subject& subject) { return subject.scheme.model == 1 ? "Lemma 2.4" : "Lemma 3.3"; }
-
 Check check_of(const Subject& subject, const Integrator& integrator, const std::string& statement,
                const std::string& claim, const std::string& quantity, const std::string& variable) {
   Check check =
-      subject.check(lemma_of(subject) + ", " + statement, claim,
+      subject.check(fmt::format("{}, {}", subject.scheme.model->step_lemma.name, statement), claim,
                     {{"integrator", std::string(integrator.name)}, unspoken({"measure", quantity})}, quantity);
   check.variable = variable;
-  if (!subject.scheme.control.empty()) check.be_control("unstable at any step");
+  if (subject.scheme.control != nullptr) check.be_control("unstable at any step");
   return check;
 }
 
@@ -130,19 +133,19 @@ void product_along_motion(const Subject& subject, const Integrator& integrator, 
   BoundedSteps steps(scene.T(), [&](double t) { return cfl * frozen_at(t).lemma; });
   Eigen::MatrixXd product = Eigen::MatrixXd::Identity(N, N);
   double bound = 1.0;
-  while (const auto step = steps.next()) {
-    double least_rows = unbounded;
-    const RatesAt rates = [&](double fraction) -> const SparseMatrix& {
-      const Frozen& frozen = frozen_at(step->at(fraction));
-      least_rows = std::min(least_rows, frozen.rows);
-      return frozen.R;
-    };
-    take_step(integrator, rates, step->dt, product);
-    bound *= step_bound(integrator, step->dt, least_rows, constants.C);
+  double least_rows = unbounded;
+  const RatesAt rates = [&](double t) -> const SparseMatrix& {
+    const Frozen& frozen = frozen_at(t);
+    least_rows = std::min(least_rows, frozen.rows);
+    return frozen.R;
+  };
+  MatrixSystem system(rates, product);
+  integrate(integrator, system, steps, system, [&](std::int64_t, const TimeStep& step) {
+    bound *= step_bound(integrator, step.dt, std::exchange(least_rows, unbounded), constants.C);
     const double norm = max_norm(product);
-    seen(step->end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
-    if (norm == largest_norm) return;
-  }
+    seen(step.end, norm, bound < largest_norm ? bound * (1.0 + round_off) : unbounded);
+    return norm != largest_norm;
+  });
 }
 
 struct Measured {
@@ -200,19 +203,16 @@ bool entries_are_promised(const Subject& subject, const Integrator& integrator, 
                           const Constants& constants, double dt) {
   const double radius = monotonicity_radius(integrator);
   const bool any_step = std::isinf(radius), within = frozen.rows > 0.0 && dt <= radius * frozen.rows * (1.0 + 1e-12);
-  if (subject.scheme.model == 2) return within && (any_step ? constants.C * dt < 1.0 : constants.C == 0.0);
-  return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
+  if (subject.scheme.model->upwind) return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
+  return within && (any_step ? constants.C * dt < 1.0 : constants.C == 0.0);
 }
 
 std::string entries_claim(const Subject& subject, const Integrator& integrator) {
-  const std::string condition = subject.scheme.model == 1 ? "while c - b keeps its sign" : "at constant velocity";
+  const StepLemma& lemma = subject.scheme.model->step_lemma;
   const double radius = monotonicity_radius(integrator);
-  if (std::isinf(radius)) {
-    return subject.scheme.model == 1 ? "an M-matrix at any step while c - b keeps its sign and dt ||b'|| < 1"
-                                     : "an M-matrix while C dt < 1";
-  }
+  if (std::isinf(radius)) return std::string(lemma.m_matrix);
   return fmt::format("no entry of a step is negative up to {}the condition of the rows, {}",
-                     radius == 1.0 ? "" : "1 + sqrt(2) times ", condition);
+                     radius == 1.0 ? "" : "1 + sqrt(2) times ", lemma.where_positive);
 }
 
 /// A point of the map: a measure at a horizon and a CFL number.
@@ -254,7 +254,7 @@ double last_stable(Stable&& stable, double highest) {
 /// Whether theory gives the limit itself, and not only that it is no smaller.
 bool limit_is_exact(const Subject& subject, const Integrator& integrator, Measure measure, double C) {
   return C == 0.0 && measure == Measure::norm && integrator.name == forward_euler.name &&
-         subject.scheme.control.empty();
+         subject.scheme.control == nullptr;
 }
 
 /// The smallest limit of the arrangement's particles, unless another one is not within its bounds.
@@ -368,11 +368,9 @@ Measurement sharp_limit(const Subject& subject, const Integrator& integrator, co
                         Measure measure, double highest) {
   const Constants constants(subject);
   const bool of_norm = measure == Measure::norm;
-  const char* const claim =
-      !limit_is_exact(subject, integrator, measure, constants.C) ? "stable as far as the rows need, at least"
-      : subject.scheme.model == 2
-          ? "monotone exactly up to dt mu (reach/N_j) sum_k W_k/(x_i - x_j) = 1, if mu reach >= |c| |x_i - x_j|"
-          : "monotone exactly up to c dt sum_k W_k = 1";
+  const std::string claim(limit_is_exact(subject, integrator, measure, constants.C)
+                              ? subject.scheme.model->step_lemma.sharp
+                              : "stable as far as the rows need, at least");
   return bounded_if_at_all(
       check_of(subject, integrator, of_norm ? "sharp in the max norm" : "sharp in the spectral radius", claim,
                of_norm ? "largest CFL number, max norm" : "largest CFL number, spectral radius", "delta/h"),
@@ -395,7 +393,7 @@ Measurement growth_curve(const Subject& subject, const Integrator& integrator, s
 Measurement smallest_entry(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid) {
   Check check = check_of(subject, integrator, "positivity", entries_claim(subject, integrator),
                          "smallest entry of a step", "CFL number");
-  if (subject.scheme.model == 1 && !relative_velocity_keeps_its_sign(*subject.scene)) {
+  if (subject.scheme.model->upwind && !relative_velocity_keeps_its_sign(*subject.scene)) {
     check.expected = Verdict::violated;
     check.remark =
         "where c - b rises through zero, a particle sees neighbors whose velocity has the other sign; their entries "

@@ -8,12 +8,12 @@
 
 namespace acstudy {
 
-SparseMatrix sparse_rates(const Subject& subject, PlacedScheme& placed) {
+SparseMatrix sparse_rates(PlacedScheme& placed) {
   const auto n = static_cast<int>(placed.size());
   std::vector<Eigen::Triplet<double>> entries;
-  if (subject.scheme.control.empty()) {
+  if (const SchemeRows* const known = placed.scheme().rows()) {
     RateMatrix R;
-    placed.scheme().matrix(R);
+    known->matrix(R);
     for (int j = 0; j < n; ++j) {
       for (std::ptrdiff_t k = R.begin[j]; k < R.begin[j + 1]; ++k) entries.emplace_back(j, R.column[k], R.value[k]);
     }
@@ -31,44 +31,60 @@ SparseMatrix sparse_rates(const Subject& subject, PlacedScheme& placed) {
   return matrix;
 }
 
-void take_step(const Integrator& integrator, const RatesAt& rates, double dt, Eigen::MatrixXd& U) {
-  Eigen::MatrixXd U_n, k_1;
-  if (integrator.stage_count() > 1) U_n = U;
-  for (const Stage& stage : integrator.stages) {
-    U += dt * (rates(stage.time) * U).eval();
-    if (stage.weight != 1.0) U = (1.0 - stage.weight) * U_n + stage.weight * U;
-  }
-  for (const ImplicitStage& stage : integrator.implicit_stages) {
-    if (stage.previous != 0.0) U = U_n + stage.previous * dt * k_1;
-    const double scale = stage.diagonal * dt;
-    const Eigen::MatrixXd A =
-        Eigen::MatrixXd::Identity(U.rows(), U.rows()) - scale * Eigen::MatrixXd(rates(stage.time));
-    U = A.partialPivLu().solve(U).eval();
-    if (&stage == &integrator.implicit_stages.front() && U_n.size() > 0) k_1 = (U - U_n) / scale;
-  }
+void MatrixSystem::rate(double t, MatrixSystem&, std::span<double> du) const {
+  Eigen::Map<Eigen::MatrixXd>(du.data(), U_.rows(), U_.cols()) = rates_(t) * U_;
+}
+
+void MatrixSystem::solve(double t, double scale, MatrixSystem&) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(U_.rows(), U_.rows()) - scale * Eigen::MatrixXd(rates_(t));
+  U_ = A.partialPivLu().solve(U_).eval();
 }
 
 Eigen::MatrixXd step_operator(const Integrator& integrator, const SparseMatrix& R, double dt) {
   Eigen::MatrixXd S = Eigen::MatrixXd::Identity(R.rows(), R.rows());
-  take_step(
-      integrator, [&](double) -> const SparseMatrix& { return R; }, dt, S);
+  const RatesAt rates = [&](double) -> const SparseMatrix& { return R; };
+  MatrixSystem system(rates, S);
+  Stepper(integrator, system.values().size())({.begin = 0.0, .end = dt, .dt = dt}, system, system);
   return S;
 }
 
-std::complex<double> stability_function(const Integrator& integrator, std::complex<double> z) {
-  std::complex<double> u = 1.0, k_1 = 0.0;
-  for (const Stage& stage : integrator.stages) u = (1.0 - stage.weight) + stage.weight * (u + z * u);
-  for (const ImplicitStage& stage : integrator.implicit_stages) {
-    u = (1.0 + stage.previous * k_1) / (1.0 - stage.diagonal * z);
-    if (&stage == &integrator.implicit_stages.front()) k_1 = (u - 1.0) / stage.diagonal;
+namespace {
+
+/// u' = z u of one complex unknown.
+struct ComplexSystem {
+  std::complex<double> z;
+  void rate(double, std::span<double>& u, std::span<double> du) const { put(z * complex(u), du); }
+  void solve(double, double scale, std::span<double>& u) const { put(complex(u) / (1.0 - scale * z), u); }
+
+  static std::complex<double> complex(std::span<const double> u) { return {u[0], u[1]}; }
+  static void put(std::complex<double> value, std::span<double> u) {
+    u[0] = value.real();
+    u[1] = value.imag();
   }
-  return u;
+};
+
+}  // namespace
+
+std::complex<double> stability_function(const Integrator& integrator, std::complex<double> z) {
+  double value[] = {1.0, 0.0};
+  std::span<double> u = value;
+  const ComplexSystem system{z};
+  Stepper(integrator, u.size())({.begin = 0.0, .end = 1.0, .dt = 1.0}, u, system);
+  return ComplexSystem::complex(u);
 }
 
 double monotonicity_radius(const Integrator& integrator) {
-  if (!integrator.implicit()) return 1.0;
-  const ImplicitStage& last = integrator.implicit_stages.back();
-  return last.previous == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / (last.previous - last.diagonal);
+  double radius = std::numeric_limits<double>::infinity();
+  if (integrator.implicit()) {
+    const std::size_t last = integrator.stage_count();
+    return last == 1 ? radius : 1.0 / (integrator.stage(last).beta[1] - integrator.diagonal(last));
+  }
+  for (const Stage& stage : integrator.stages) {
+    for (std::size_t k = 0; k < most_stages; ++k) {
+      if (stage.beta[k] != 0.0) radius = std::min(radius, stage.alpha[k] / stage.beta[k]);
+    }
+  }
+  return radius;
 }
 
 double max_norm(const Eigen::MatrixXd& matrix) {

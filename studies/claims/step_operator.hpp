@@ -8,7 +8,7 @@
 #include <complex>
 #include <functional>
 
-#include "solver/time/integrators.hpp"
+#include "solver/time/integrate.hpp"
 #include "studies/cases/subject.hpp"
 
 namespace acstudy {
@@ -16,13 +16,24 @@ namespace acstudy {
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// R with rate(u) = R u, of a scheme or of a control.
-SparseMatrix sparse_rates(const Subject& subject, PlacedScheme& placed);
+SparseMatrix sparse_rates(PlacedScheme& placed);
 
-/// R at the time t^n + fraction dt of a stage.
-using RatesAt = std::function<const SparseMatrix&(double fraction)>;
+/// R at time t.
+using RatesAt = std::function<const SparseMatrix&(double t)>;
 
-/// U <- S U, S being one step of length dt without source; U of shape [N, any]. The identity becomes S itself.
-void take_step(const Integrator& integrator, const RatesAt& rates, double dt, Eigen::MatrixXd& U);
+/// The columns of U, shape [N, any], as one state whose rate is R U: the system that integrate() steps.
+class MatrixSystem {
+ public:
+  /// @param U  changed in place
+  MatrixSystem(const RatesAt& rates, Eigen::MatrixXd& U) : rates_(rates), U_(U) {}
+  std::span<double> values() { return {U_.data(), static_cast<std::size_t>(U_.size())}; }
+  void rate(double t, MatrixSystem&, std::span<double> du) const;
+  void solve(double t, double scale, MatrixSystem&);
+
+ private:
+  const RatesAt& rates_;
+  Eigen::MatrixXd& U_;
+};
 
 /// S of particles that do not move during the step: a polynomial or rational function of dt R, shape [N, N].
 Eigen::MatrixXd step_operator(const Integrator& integrator, const SparseMatrix& R, double dt);
@@ -31,8 +42,9 @@ Eigen::MatrixXd step_operator(const Integrator& integrator, const SparseMatrix& 
 std::complex<double> stability_function(const Integrator& integrator, std::complex<double> z);
 
 /// The function phi = stability_function is absolutely monotone on [-x, 0] up to this x: a step of an integrator may be
-/// that many times longer than one of forward Euler. 1 for explicit stages, which are convex combinations; infinite for
-/// one implicit stage; for two, S = (I - gamma dt R)^-2 (I + (1 - 2 gamma) dt R) and its numerator decides.
+/// that many times longer than one of forward Euler. For explicit stages, convex combinations of forward Euler steps,
+/// the least alpha/beta, 1 for those of this table; infinite for one implicit stage; for two, S = (I - gamma dt R)^-2
+/// (I + (1 - 2 gamma) dt R) and its numerator decides.
 double monotonicity_radius(const Integrator& integrator);
 
 /// Largest row sum of absolute values.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "solver/particles.hpp"
+
 namespace acstudy {
 
 namespace {
@@ -37,9 +39,16 @@ std::string left_out(const Study& study) {
   } else if (any([](const Series& s) { return !s.nonlocal_source; })) {
     line("source quadrature where the source is local: f = u_t + (c u)_x (quadrature_points = 0)");
   }
-  if (any([](const Series& s) { return s.scheme.model == 1; })) line("viscosity and midpoint velocities in Model I");
+  for (const ModelCard* model : model_cards()) {
+    if (model->left_out.empty() || !any([&](const Series& s) { return s.scheme.model == model; })) continue;
+    line(fmt::format("{} in {}", model->left_out, model->name));
+  }
   if (any([](const Series& s) { return s.cases.back().delta < s.cases.back().h; })) {
-    line("neighbors beyond the nearest where the horizon is below the spacing: 1 in Model I, 2 in Model II");
+    std::vector<std::string> nearest;
+    for (const ModelCard* model : model_cards())
+      nearest.push_back(fmt::format("{} in {}", model->sides(), model->name));
+    line(fmt::format("neighbors beyond the nearest where the horizon is below the spacing: {}",
+                     fmt::join(nearest, ", ")));
   }
   const auto one_stage = [](const Series& s) { return s.cases.front().integrator->stage_count() == 1; };
   if (any(one_stage)) line("stage storage where the integrator has one stage");
@@ -118,26 +127,27 @@ std::string explain(const Study& study) {
     }
     if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
     out += fmt::format("  the gate expects: {}\n", name_of(series.expected));
-    if (series.scheme.model == 2) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
+    if (series.scheme.model->viscous) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
     out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps",
                        "neighbors", "CFL");
     for (const Case& c : series.cases) {
       const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
       out +=
           fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}{}\n", c.N, c.h, c.delta, c.dt,
-                      c.steps, (series.scheme.model == 1 ? 1 : 2) * static_cast<std::int64_t>(per_side), c.cfl(),
+                      c.steps, series.scheme.model->sides() * static_cast<std::int64_t>(per_side), c.cfl(),
                       c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "",
                       series.against_reference && &c == &series.cases.back() ? "  reference" : "");
       ++count;
     }
-    if (series.scheme.model == 2 && series.scheme.kernel.name != "cubic-spline") {
-      out +=
-          "  the bound of Lemma 3.3, 1, is not enough for every kernel: see the section on Model II of "
-          "docs/equations.md\n";
+    const ModelCard& model = *series.scheme.model;
+    if (!model.step_lemma.enough_for_every_kernel && !vanishes_at_origin(series.scheme.kernel)) {
+      out += fmt::format(
+          "  the bound of {}, 1, is not enough for every kernel: see the section on {} of docs/equations.md\n",
+          model.step_lemma.name, model.name);
     }
     if (series.scheme.mu && *series.scheme.mu < study.scene->max_relative_velocity()) {
-      out += fmt::format("  mu is below max|c - b| = {:.6g}: Lemma 3.3 does not promise stability\n",
-                         study.scene->max_relative_velocity());
+      out += fmt::format("  mu is below max|c - b| = {:.6g}: {} does not promise stability\n",
+                         study.scene->max_relative_velocity(), model.step_lemma.name);
     }
   }
   out += fmt::format(

@@ -5,7 +5,7 @@
 #include "mms/scene.hpp"
 #include "solver/time/integrators.hpp"
 #include "studies/kinds/kinds.hpp"
-#include "studies/models/kernel_choice.hpp"
+#include "studies/models/model_card.hpp"
 
 namespace acstudy {
 
@@ -16,12 +16,13 @@ void print_list(const std::string& what) {
   const char* indent = what.empty() ? "  " : "";
   if (what.empty() || what == "schemes") {
     heading("schemes");
-    fmt::print(
-        "{0}model = 1, divergence = \"local\"     Model I, scheme 1 (2.9); (2.4) where particles stand still\n"
-        "{0}model = 1, divergence = \"nonlocal\"  Model I, scheme 2 (2.11)\n"
-        "{0}model = 2, divergence = \"local\"     Model II, scheme 1 (3.8); (3.6) where particles stand still\n"
-        "{0}model = 2, divergence = \"nonlocal\"  Model II, scheme 2 (3.10)\n",
-        indent);
+    for (const ModelCard* model : model_cards()) {
+      const Theorems& equations = model->equations;
+      fmt::print(
+          "{0}model = {1}, divergence = \"local\"     {2}, scheme 1 {3}; {4} where particles stand still\n"
+          "{0}model = {1}, divergence = \"nonlocal\"  {2}, scheme 2 {5}\n",
+          indent, model->number, model->name, equations.local, equations.standing, equations.nonlocal);
+    }
   }
   if (what.empty() || what == "kernels") {
     heading("kernels");

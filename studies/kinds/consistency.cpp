@@ -22,7 +22,7 @@ void read_consistency(const Table& root, Study& study) {
   }
 
   for (const Subject& subject : read_subjects(root, study.scene)) {
-    for (const LemmaEstimate& estimate : estimates(subject.scheme.model)) {
+    for (const LemmaEstimate& estimate : subject.scheme.model->estimates) {
       // D does not depend on how the divergence is written.
       if (estimate.viscous && subject.scheme.nonlocal_divergence) continue;
       std::vector<Measurement>& all = study.measurements;
@@ -30,7 +30,7 @@ void read_consistency(const Table& root, Study& study) {
       for (const PathChoice& path : paths) {
         if (path.nonlocal_source == estimate.nonlocal) all.push_back(consistency_along(subject, estimate, path));
       }
-      if (subject.scheme.model == 2 && estimate.nonlocal) {
+      if (!estimate.second_term.empty()) {
         all.push_back(order_below_spacing(subject, estimate, sweep.N, 0.01));
         all.push_back(growth_below_spacing(subject, estimate, sweep.N.back(), sweep.ratios));
       }

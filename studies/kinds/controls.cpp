@@ -56,10 +56,9 @@ Measurement along_path(const Series& series, std::size_t number) {
 /// What the scheme, with its own source, leaves of its equation.
 Measurement consistency(const Subject& subject, const PathChoice& path) {
   const bool nonlocal = path.nonlocal_source;
-  Check check = subject.check(
-      subject.scheme.model == 1 ? (nonlocal ? "Lemma 2.3" : "Lemma 2.5") : (nonlocal ? "Lemma 3.2" : "Lemma 3.4"),
-      nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {}, "max |rate + f - du/dt|",
-      Test::rate);
+  Check check = subject.check(std::string(nonlocal ? subject.scheme.model->to_nonlocal : subject.scheme.model->to_pde),
+                              nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {},
+                              "max |rate + f - du/dt|", Test::rate);
   check.variable = nonlocal ? "h" : "max(h,delta)";
   check.theory_order = 1.0;
   return {check, [=](Finding& finding) {
@@ -83,7 +82,8 @@ Measurement trajectories(const SchemeEntry& entry, const std::shared_ptr<const S
            .quantity = "refusals of the flow by the checks of the scene"},
           [=](Finding& finding) {
             SceneText text = scene->text();
-            if (entry.scheme.control == misprinted_trajectories) text.flow = misprinted_flow;
+            const Control* const control = entry.scheme.control;
+            if (control != nullptr && control->flow != nullptr) text.flow = control->flow;
             Point point{.value = 0.0, .lower = 0.0, .upper = 0.0};
             try {
               const Scene checked(text);
@@ -124,13 +124,12 @@ class Cell {
 };
 
 /// A mistake is noticed by some check, and nothing is noticed where there is none.
-Measurement alarms(const std::string& control, const std::vector<Cell>& cells) {
+Measurement alarms(const Control* control, const std::vector<Cell>& cells) {
   Check check{.statement = "detection", .claim = "no check raises an alarm", .quantity = "checks that raise an alarm"};
   Point bounds{.lower = 0.0, .upper = 0.0};
-  for (const NamedControl& known : named_controls) {
-    if (known.name != control) continue;
+  if (control != nullptr) {
     check.claim = "some check raises an alarm";
-    check.remark = known.mistake;
+    check.remark = control->mistake;
     bounds.lower = 1.0;
     bounds.upper = HUGE_VAL;
   }

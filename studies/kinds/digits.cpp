@@ -34,15 +34,15 @@ void read_digits(const Table& root, Study& study) {
 
   std::set<std::string> known;
   for (const Table& table : root.array_of_tables("weights")) {
-    const int model = read_model(table);
-    const WeightsChoice choice{model, read_kernel(table, model)};
-    if (!known.insert(fmt::format("{} {}", model, choice.kernel.label())).second) {
+    const ModelCard* const model = &read_model(table);
+    const WeightsChoice choice{model, read_kernel(table, *model)};
+    if (!known.insert(fmt::format("{} {}", model->number, choice.kernel.label())).second) {
       table.place().fail("the same weights a second time; leave one of them out");
     }
     for (const CellForm form : {CellForm::factored, CellForm::difference}) {
       study.measurements.push_back(round_off_of_weights(choice, ratios, form));
     }
-    if (model == 2) study.measurements.push_back(round_off_of_renormalization(choice, ratios));
+    if (model->renormalized) study.measurements.push_back(round_off_of_renormalization(choice, ratios));
   }
 
   const toml::node* const scene = root.find("scene");
@@ -62,7 +62,7 @@ void read_digits(const Table& root, Study& study) {
 }
 
 constexpr Key weights_keys[] = {
-    {"model", "1 or 2", "Model I or Model II"},
+    {"model", "whole number", "as in a [[scheme]]"},
     {"kernel", "a kernel", "as in a [[scheme]]"},
 };
 constexpr Key digits_keys[] = {

@@ -21,7 +21,7 @@ void read_identities(const Table& root, Study& study) {
     for (const double ratio : {0.9, 4.0}) all.push_back(nearest_neighbor_rows(subject, sweep.N, ratio));
     all.push_back(weights_are_not_negative(subject, sweep));
     all.push_back(first_moment_is_one(subject, sweep));
-    if (subject.scheme.model == 1) continue;
+    if (!subject.scheme.model->renormalized) continue;
     all.push_back(weights_cancel(subject, sweep));
     for (const bool one_sided : {false, true}) all.push_back(second_moment_is_bounded(subject, sweep, one_sided));
     all.push_back(renormalization_is_near_one(subject, sweep));

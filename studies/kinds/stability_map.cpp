@@ -55,7 +55,7 @@ Curves read_curves(const Table& table, const Scene& scene, std::int64_t N) {
 }
 
 void require_viscosity(const Subject& subject, const Place& at) {
-  if (subject.scheme.model == 2 && subject.mu == 0.0) {
+  if (subject.scheme.model->viscous && subject.mu == 0.0) {
     at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
   }
 }
@@ -65,7 +65,7 @@ std::vector<Subject> read_unstable_controls(const Table& root, const std::shared
   if (root.find("control") == nullptr) return controls;
   for (const Table& control : root.array_of_tables("control")) {
     const SchemeEntry entry = read_control(control, *scene);
-    const std::string& name = entry.scheme.control;
+    const std::string_view name = entry.scheme.control->name;
     if (std::find(unstable_controls.begin(), unstable_controls.end(), name) == unstable_controls.end()) {
       control.place(*control.find("name"))
           .fail(fmt::format("name = \"{}\"; only controls that no step of forward Euler keeps stable belong here: {}",
@@ -98,7 +98,7 @@ void read_stability_map(const Table& root, Study& study) {
     for (const Measure what : {Measure::norm, Measure::spectral}) {
       all.push_back(sharp_limit(subject, integrator, grid, what));
     }
-    if (subject.arrangement == Arrangement::uniform && subject.scheme.control.empty()) {
+    if (subject.arrangement == Arrangement::uniform && subject.scheme.control == nullptr) {
       all.push_back(smallest_entry(subject, integrator, grid));
     }
   };

@@ -25,26 +25,35 @@ struct Stencil {
   double renormalization = 1.0;        ///< N_j of Model II
 };
 
-/// A semidiscrete scheme, du_j/dt = rate_j(u) + f_j. One virtual call a sweep over all particles, none a pair.
-class Scheme {
+/// What a scheme knows of the rows of its rates, at the particles where it was placed; see KnowsItsRows.
+class SchemeRows {
  public:
-  virtual ~Scheme() = default;
+  virtual void matrix(RateMatrix& R) const = 0;
+  virtual double strongest_decay() const = 0;
+
+ protected:
+  ~SchemeRows() = default;
+};
+
+/// A semidiscrete scheme of any type, du_j/dt = rate_j(u) + f_j. One virtual call a sweep over all particles, none a
+/// pair.
+class AnyScheme {
+ public:
+  virtual ~AnyScheme() = default;
   /// Computes velocities and weights for the particles where they are now.
   virtual void place(const Particles& particles) = 0;
   /// du_j = rate_j(u).  @pre place() was called; wraps the ghosts of `u`
   virtual void rate(PeriodicArray& u, std::span<double> du) = 0;
   virtual Stencil stencil(std::ptrdiff_t j) const = 0;
-  /// The matrix of the rates.  @throws std::logic_error from a control, which is never solved for
-  virtual void matrix(RateMatrix& R) const = 0;
-  /// One over the largest forward Euler step with which every row meets what the proofs of Lemmas 2.4 and 3.3 need.
-  virtual double strongest_decay() const = 0;
+  /// Null for a control that has sums of its own.
+  virtual const SchemeRows* rows() const = 0;
   virtual WorkCounts work() const = 0;
 };
 
 /// The scheme of a choice on a scene.
-/// @param mu     viscosity bound of Model II
+/// @param mu     viscosity bound, of a viscous model
 /// @param scene  outlives the scheme
-std::unique_ptr<Scheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu);
+std::unique_ptr<AnyScheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu);
 
 /// The continuum model that a scheme discretizes at horizon `delta`.
 NonlocalModel nonlocal_model(const SchemeChoice& choice, double mu, double delta);

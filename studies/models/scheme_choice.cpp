@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include "studies/models/control_choice.hpp"
+
 namespace acstudy {
 
-std::string KernelChoice::label() const { return name == "power" ? fmt::format("power({})", alpha) : name; }
+std::string KernelChoice::label() const {
+  const NamedKernel* const row = find_kernel(name);
+  return row != nullptr && row->parameter ? fmt::format("{}({})", name, parameter) : name;
+}
 
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
-  std::string text = scheme.model == 1 ? "Model I" : "Model II";
+  std::string text(scheme.model->name);
   if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
   text += ", " + scheme.kernel.label();
-  return scheme.control.empty() ? text : fmt::format("{} ({})", scheme.control, text);
+  return scheme.control == nullptr ? text : fmt::format("{} ({})", scheme.control->name, text);
 }
 
 }  // namespace acstudy

@@ -4,19 +4,21 @@
 /// A model of the solver, with the velocities that it is to see, as a Scheme.
 
 #include <memory>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
+#include "solver/controls/velocity.hpp"
+#include "solver/scheme.hpp"
+#include "studies/models/control_choice.hpp"
 #include "studies/models/scheme.hpp"
 
 namespace acstudy {
 
-template <class Model>
+template <RateSum Model>
 Stencil stencil_of(const Model& scheme, std::ptrdiff_t j, const Windows& windows) {
   const auto weights = scheme.weights(j);
   Stencil stencil{{}, {weights.begin(), weights.end()}};
-  if constexpr (requires { scheme.looks_left(j); }) {
+  if constexpr (SeesOneSide<Model>) {
     const std::ptrdiff_t s = scheme.looks_left(j) ? +1 : -1;
     for (std::ptrdiff_t k = 1; k <= std::ssize(weights); ++k) stencil.offset.push_back(-s * k);
   } else {
@@ -28,42 +30,71 @@ Stencil stencil_of(const Model& scheme, std::ptrdiff_t j, const Windows& windows
   return stencil;
 }
 
-/// @tparam Velocity  `const Scene&`, or a velocity of its own that refers to the scene
-template <class Model, class Velocity>
-class SchemeOn final : public Scheme {
+/// @pre the scene outlives it
+template <RateSum Model>
+class SchemeOn final : public AnyScheme {
  public:
-  SchemeOn(Model model, Velocity velocity) : model_(std::move(model)), velocity_(velocity) {}
+  SchemeOn(Model model, const Scene& scene, controls::Forgotten forgotten)
+      : model_(std::move(model)), velocity_{scene, forgotten} {}
   void place(const Particles& particles) override {
     windows_ = &particles.windows;
     model_.place(particles, velocity_);
   }
   void rate(PeriodicArray& u, std::span<double> du) override { model_.rate(u, du); }
   Stencil stencil(std::ptrdiff_t j) const override { return stencil_of(model_, j, *windows_); }
-  void matrix(RateMatrix& R) const override {
-    if constexpr (requires { model_.matrix(R); }) {
-      model_.matrix(R);
-    } else {
-      throw std::logic_error("a control has no matrix");
-    }
-  }
-  double strongest_decay() const override {
-    if constexpr (requires { model_.strongest_decay(); }) {
-      return model_.strongest_decay();
-    } else {
-      throw std::logic_error("a control has no bound on its steps");
-    }
+  const SchemeRows* rows() const override {
+    if constexpr (KnowsItsRows<Model>) return &rows_;
+    return nullptr;
   }
   WorkCounts work() const override { return model_.work(); }
 
  private:
+  struct NoRows {
+    explicit NoRows(const Model&) {}
+  };
+  struct Rows final : SchemeRows {
+    explicit Rows(const Model& its) : model(its) {}
+    void matrix(RateMatrix& R) const override { model.matrix(R); }
+    double strongest_decay() const override { return model.strongest_decay(); }
+    const Model& model;
+  };
+
   Model model_;
-  Velocity velocity_;
+  controls::ForgetfulVelocity<Scene> velocity_;
   const Windows* windows_ = nullptr;
+  std::conditional_t<KnowsItsRows<Model>, Rows, NoRows> rows_{model_};
 };
 
-template <class Model>
-std::unique_ptr<Scheme> on(Model model, const Scene& scene) {
-  return std::make_unique<SchemeOn<Model, const Scene&>>(std::move(model), scene);
+/// A scheme on a scene, with the velocities that the choice's control leaves it.
+template <Scheme Model>
+std::unique_ptr<AnyScheme> on(Model model, const SchemeChoice& choice, const Scene& scene) {
+  const auto forgotten = choice.control != nullptr ? choice.control->forgotten : controls::Forgotten::nothing;
+  return std::make_unique<SchemeOn<Model>>(std::move(model), scene, forgotten);
+}
+
+/// A control's own sum.
+template <RateSum Model>
+std::unique_ptr<AnyScheme> wrong_sum_on(Model model, const Scene& scene) {
+  return std::make_unique<SchemeOn<Model>>(std::move(model), scene, controls::Forgotten::nothing);
+}
+
+/// The scheme that `make(kernel, divergence)` makes of a kernel and the divergence of a choice, as types.
+template <class Make>
+auto with_divergence(const SchemeChoice& choice, const Scene& scene, const Make& make) {
+  return [&](const auto& kernel) -> std::unique_ptr<AnyScheme> {
+    if (scene.standing()) return make(kernel, NoDivergence{});
+    if (choice.nonlocal_divergence) return make(kernel, NonlocalDivergence{});
+    return make(kernel, LocalDivergence{});
+  };
+}
+
+/// The same of a control, which is one of the local divergence.
+template <class Make>
+auto with_local_divergence(const Scene& scene, const Make& make) {
+  return [&](const auto& kernel) -> std::unique_ptr<AnyScheme> {
+    if (scene.standing()) return make(kernel, NoDivergence{});
+    return make(kernel, LocalDivergence{});
+  };
 }
 
 }  // namespace acstudy

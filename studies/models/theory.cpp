@@ -1,19 +1,24 @@
 #include "studies/models/theory.hpp"
 
+#include <algorithm>
+
 namespace acstudy {
 
 std::string theorem(const SchemeChoice& scheme, bool standing) {
-  const int offset = standing ? 0 : scheme.nonlocal_divergence ? 2 : 1;
-  return scheme.model == 1 ? "Theorem 2." + std::to_string(6 + offset) : "Theorem 3." + std::to_string(5 + offset);
+  const Theorems& theorems = scheme.model->theorems;
+  return std::string(standing ? theorems.standing : scheme.nonlocal_divergence ? theorems.nonlocal : theorems.local);
 }
 
 Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon,
                   bool below_spacing) {
   const std::string statement = theorem(scheme, standing);
   if (nonlocal_source) {
-    // Part (1) of Model II has the terms h^2/delta and h^3/delta^2, which do not vanish for delta below h; there both
-    // the nonlocal model and the scheme are within O(max(h, delta)) of the PDE, so part (2) carries over.
-    if (scheme.model == 2 && below_spacing) return {"max(h,delta)", 1.0, statement + " (2)"};
+    // A second term, h^2/delta or h^3/delta^2, does not vanish for delta below h; there both the nonlocal model and the
+    // scheme are within O(max(h, delta)) of the PDE, so part (2) carries over.
+    const auto& estimates = scheme.model->estimates;
+    const bool second_term = std::any_of(estimates.begin(), estimates.end(),
+                                         [](const LemmaEstimate& estimate) { return !estimate.second_term.empty(); });
+    if (second_term && below_spacing) return {"max(h,delta)", 1.0, statement + " (2)"};
     return {"h", 1.0, statement + " (1)"};
   }
   if (fixed_horizon && !below_spacing) {

@@ -16,8 +16,8 @@ struct Theory {
   std::string statement;
 };
 
-/// The theorem that speaks about a scheme: 2.6 - 2.8, 3.5 - 3.7. Its part (1) is the limit h -> 0 at a fixed horizon,
-/// part (2) that of h and delta together.
+/// The theorem that speaks about a scheme: 2.6 - 2.8, 3.5 - 3.7; see Theorems. Its part (1) is the limit h -> 0 at a
+/// fixed horizon, part (2) that of h and delta together.
 std::string theorem(const SchemeChoice& scheme, bool standing);
 
 /// Theory for a scheme along a path.

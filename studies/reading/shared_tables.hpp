@@ -3,6 +3,10 @@
 /// @file
 /// The keys of tables that studies of several kinds share; path_part and study_parts read them.
 
+#include <algorithm>
+#include <array>
+
+#include "studies/models/kernel_choice.hpp"
 #include "studies/models/key.hpp"
 
 namespace acstudy {
@@ -28,14 +32,25 @@ inline constexpr Key scene_keys[] = {
 };
 inline constexpr TableKeys scene_table{"[scene]", scene_keys};
 
-inline constexpr Key scheme_keys[] = {
-    {"model", "1 or 2", "Model I or Model II"},
+/// Keys, and those of the kernels' parameters behind "kernel.name".
+template <std::size_t n>
+constexpr auto with_kernel_keys(const Key (&keys)[n]) {
+  std::array<Key, n + kernel_keys.size()> all{};
+  auto next = all.begin();
+  for (const Key& key : keys) {
+    *next++ = key;
+    if (key.name == "kernel.name") next = std::copy(kernel_keys.begin(), kernel_keys.end(), next);
+  }
+  return all;
+}
+
+inline constexpr auto scheme_keys = with_kernel_keys({
+    {"model", "whole number", "the model, by the number that acstudy list schemes prints"},
     {"divergence", "\"local\", \"nonlocal\"", "b' is exact, or made of the kernel", "needed where particles move"},
     {"kernel", "a kernel", "by name, or as a table with its parameters"},
     {"kernel.name", "a kernel", "the name, in a table"},
-    {"kernel.alpha", "number", "exponent of the power kernel: below 2, in Model II below 1", "needed by \"power\""},
     {"mu", "number, 0 or more", "viscosity bound of Model II", "max |c - b|"},
-};
+});
 inline constexpr TableKeys scheme_table{"[[scheme]]", scheme_keys};
 
 inline constexpr Key time_keys[] = {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "solver/time/steps.hpp"
 #include "studies/models/control_choice.hpp"
 #include "studies/models/theory.hpp"
 #include "studies/reading/shared_tables.hpp"
@@ -92,72 +93,107 @@ std::shared_ptr<const Scene> read_scene_with_advection(const Table& table) {
   return scene;
 }
 
-int read_model(const Table& table) {
-  const toml::node& model = table.need("model", "model = 1");
-  const auto number = model.value_exact<std::int64_t>();
-  if (!number || (*number != 1 && *number != 2)) {
-    table.place(model).fail(fmt::format("model = {}; it must be 1 or 2", Table::described(model)));
+const ModelCard& read_model(const Table& table) {
+  const toml::node& node = table.need("model", "model = 1");
+  const auto number = node.value_exact<std::int64_t>();
+  const ModelCard* const model = number ? find_model(*number) : nullptr;
+  if (model == nullptr) {
+    std::vector<int> known;
+    for (const ModelCard* card : model_cards()) known.push_back(card->number);
+    table.place(node).fail(fmt::format("model = {}; it must be {}", Table::described(node), fmt::join(known, " or ")));
   }
-  return static_cast<int>(*number);
+  return *model;
 }
 
-KernelChoice read_kernel(const Table& scheme, int model) {
-  const toml::node& node = scheme.need("kernel", "kernel = \"cubic-spline\"");
+namespace {
+
+/// What a study can write where the kernel has to be integrable.
+std::string integrable_examples() {
+  std::vector<std::string> written;
+  for (const NamedKernel& known : named_kernels) {
+    if (known.parameter && !known.parameter->integrable.empty()) {
+      written.push_back(fmt::format("{} with {}", known.example(), known.parameter->integrable));
+    } else if (!known.parameter && integrable({std::string(known.name)})) {
+      written.push_back(known.example());
+    }
+  }
+  return fmt::format("{}", fmt::join(written, " or "));
+}
+
+/// The parameter of a family, from the table that names it.
+double read_parameter(const Table& table, const KernelParameter& parameter, const KernelChoice& kernel,
+                      const ModelCard& model) {
+  const std::string name(parameter.name());
+  const toml::node& node = *table.find(name);
+  const double value = table.number(name, node);
+  if (!parameter.in_range(value)) {
+    table.place(node).fail(fmt::format("{} = {}; the {} kernel {}", name, value, kernel.name, parameter.range));
+  }
+  if (model.needs_integrable_kernel() && !integrable({kernel.name, value})) {
+    table.place(node).fail(
+        fmt::format("{} = {}; {} needs an integrable kernel: {}", name, value, model.name, parameter.integrable));
+  }
+  return value;
+}
+
+}  // namespace
+
+KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
+  const toml::node& node = scheme.need("kernel", fmt::format("kernel = {}", integrable_kernel().row().example()));
   static const toml::table no_table;
   const toml::table* const table = node.as_table();
   const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
+  std::vector<std::string_view> names;
+  for (const NamedKernel& known : named_kernels) names.push_back(known.name);
   const toml::node* name_node = &node;
   if (table != nullptr) {
     inner.allow(scheme_keys, "kernel");
-    name_node = &inner.need("name", "{ name = \"power\", alpha = 0.5 }");
+    const auto* const family = std::find_if(std::begin(named_kernels), std::end(named_kernels),
+                                            [](const NamedKernel& known) { return known.parameter.has_value(); });
+    name_node = &inner.need("name", family->example());
   }
-  KernelChoice kernel{scheme.text("kernel", *name_node, "kernel = \"inverse\"")};
-  std::vector<std::string_view> known;
-  for (const NamedKernel& named : named_kernels) known.push_back(named.name);
-  if (std::find(known.begin(), known.end(), kernel.name) == known.end()) {
+  KernelChoice kernel{scheme.text("kernel", *name_node, fmt::format("kernel = {}", named_kernels[0].example()))};
+  const NamedKernel* const row = find_kernel(kernel.name);
+  if (row == nullptr) {
     scheme.place(*name_node)
-        .fail(fmt::format("unknown kernel {}; known kernels: {}", in_quotes(kernel.name), fmt::join(known, ", ")));
+        .fail(fmt::format("unknown kernel {}; known kernels: {}", in_quotes(kernel.name), fmt::join(names, ", ")));
   }
-
-  const toml::node* const alpha = table != nullptr ? inner.find("alpha") : nullptr;
-  if (alpha != nullptr) {
-    if (kernel.name != "power") {
-      inner.place(*alpha).fail(fmt::format("the {} kernel has no alpha; leave it out", kernel.name));
-    }
-    kernel.alpha = inner.number("alpha", *alpha);
-    if (kernel.alpha >= 2.0) {
-      inner.place(*alpha).fail(
-          fmt::format("alpha = {}; the power kernel has a first moment only for a finite alpha < 2", kernel.alpha));
-    }
-    if (model == 2 && !integrable(kernel)) {
-      inner.place(*alpha).fail(fmt::format("alpha = {}; Model II needs an integrable kernel: alpha < 1", kernel.alpha));
-    }
-  } else if (kernel.name == "power" && table != nullptr) {
-    inner.place().fail("the power kernel has no alpha; write { name = \"power\", alpha = 0.5 }");
-  } else if (kernel.name == "power") {
-    scheme.place(node).fail("the power kernel needs its exponent; write { name = \"power\", alpha = 0.5 }");
+  for (const NamedKernel& known : named_kernels) {
+    const std::string key(known.parameter ? known.parameter->name() : "");
+    if (key.empty() || inner.find(key) == nullptr || (row->parameter && row->parameter->name() == key)) continue;
+    inner.place(*inner.find(key)).fail(fmt::format("the {} kernel has no {}; leave it out", kernel.name, key));
   }
-  if (model == 2 && !integrable(kernel)) {
+  if (row->parameter && table == nullptr) {
+    scheme.place(node).fail(
+        fmt::format("the {} kernel needs its {}; write {}", kernel.name, row->parameter->role, row->example()));
+  }
+  if (row->parameter && inner.find(std::string(row->parameter->name())) == nullptr) {
+    inner.place().fail(
+        fmt::format("the {} kernel has no {}; write {}", kernel.name, row->parameter->name(), row->example()));
+  }
+  if (row->parameter) kernel.parameter = read_parameter(inner, *row->parameter, kernel, model);
+  if (model.needs_integrable_kernel() && !integrable(kernel)) {
     scheme.place(*name_node)
-        .fail(fmt::format("Model II needs an integrable kernel, and the {} kernel is not; write \"cubic-spline\" or "
-                          "{{ name = \"power\", alpha = 0.5 }} with alpha < 1",
-                          kernel.name));
+        .fail(fmt::format("{} needs an integrable kernel, and the {} kernel is not; write {}", model.name, kernel.name,
+                          integrable_examples()));
   }
   return kernel;
 }
 
 SchemeChoice read_scheme(const Table& table, const Scene& scene) {
   SchemeChoice scheme{};
-  scheme.model = read_model(table);
+  scheme.model = &read_model(table);
   const toml::node* const divergence = table.find("divergence");
   if (divergence != nullptr) {
     scheme.nonlocal_divergence = table.choice<bool>("divergence", *divergence, {{"local", false}, {"nonlocal", true}});
   } else if (!scene.standing()) {
     table.need("divergence", "divergence = \"local\"");
   }
-  scheme.kernel = read_kernel(table, scheme.model);
+  scheme.kernel = read_kernel(table, *scheme.model);
   if (const toml::node* const mu = table.find("mu")) {
-    if (scheme.model == 1) table.place(*mu).fail("Model I has no viscosity; leave mu out");
+    if (!scheme.model->viscous) {
+      table.place(*mu).fail(fmt::format("{} has no viscosity; leave mu out", scheme.model->name));
+    }
     scheme.mu = table.number("mu", *mu);
     if (*scheme.mu < 0.0) {
       table.place(*mu).fail(fmt::format("mu = {}; a viscosity bound must be finite and not negative", *scheme.mu));
@@ -172,9 +208,10 @@ std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene) {
   double widest = -1.0;
   for (const Table& table : root.array_of_tables("scheme")) {
     const SchemeChoice scheme = read_scheme(table, scene);
-    if (scheme.model == 2 && !scheme.mu && widest < 0.0) widest = scene.max_relative_velocity();
-    const double mu = scheme.model == 1 ? 0.0 : scheme.mu.value_or(widest);
-    if (!keys.insert(fmt::format("{}|{}|{}|{}", scheme.model, scheme.nonlocal_divergence, scheme.kernel.label(), mu))
+    if (scheme.model->viscous && !scheme.mu && widest < 0.0) widest = scene.max_relative_velocity();
+    const double mu = scheme.model->viscous ? scheme.mu.value_or(widest) : 0.0;
+    if (!keys.insert(fmt::format("{}|{}|{}|{}", scheme.model->number, scheme.nonlocal_divergence, scheme.kernel.label(),
+                                 mu))
              .second) {
       table.place().fail("the same scheme a second time; leave one of them out");
     }
@@ -208,27 +245,27 @@ std::vector<double> read_positive(const Table& table, std::string_view key, std:
 
 SchemeEntry read_control(const Table& table, const Scene& scene) {
   const std::string name = table.text("name", "name = \"downwind\"");
-  const auto control = std::find_if(named_controls.begin(), named_controls.end(),
-                                    [&](const NamedControl& known) { return known.name == name; });
-  if (control == named_controls.end()) {
+  const Control* const control = find_control(name);
+  if (control == nullptr) {
     std::vector<std::string> known;
-    for (const NamedControl& one : named_controls) known.push_back("\"" + std::string(one.name) + "\"");
+    for (const Control& one : named_controls()) known.push_back(fmt::format("\"{}\"", one.name));
     table.place(*table.find("name"))
         .fail(fmt::format("name = {}; it must be one of {}", in_quotes(name), fmt::join(known, ", ")));
   }
   const Table inner = table.sub_table("scheme");
   inner.allow(scheme_keys);
   SchemeChoice scheme = read_scheme(inner, scene);
-  if (scheme.nonlocal_divergence || (control->model != 0 && control->model != scheme.model)) {
+  if (scheme.nonlocal_divergence || (control->model != nullptr && control->model != scheme.model)) {
+    const ModelCard& right = control->model != nullptr ? *control->model : *model_cards().front();
     inner.place().fail(fmt::format(
-        "{} is a mistake in Model {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}",
-        name, control->model == 0 ? "I or II" : (control->model == 1 ? "I" : "II"), std::max(control->model, 1)));
+        "{} is a mistake in {}, local divergence; write scheme = {{ model = {}, divergence = \"local\", ... }}", name,
+        control->model != nullptr ? right.name : "any model", right.number));
   }
-  if (name == misprinted_trajectories && scene.text().b != "sin(x)") {
-    table.place().fail(fmt::format("{} are those of b = sin(x); use the scene \"lee-du-2019\"", name));
+  if (control->flow != nullptr && scene.text().b != control->flow_of_b) {
+    table.place().fail(fmt::format("{} are those of b = {}; use the scene \"lee-du-2019\"", name, control->flow_of_b));
   }
-  scheme.control = name;
-  return {scheme, scheme.model == 1 ? 0.0 : scheme.mu.value_or(scene.max_relative_velocity())};
+  scheme.control = control;
+  return {scheme, scheme.model->viscous ? scheme.mu.value_or(scene.max_relative_velocity()) : 0.0};
 }
 
 Sweep read_sweep(const Table& table, const Scene& scene) {
@@ -359,7 +396,7 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
     time.at_step.fail(
         fmt::format("step = \"cfl\" where {} is zero, so that no bound limits a step; write an expression "
                     "in h and N such as \"h/4\"",
-                    entry.scheme.model == 1 ? "c - b" : "mu"));
+                    entry.scheme.model->step_lemma.limit));
   }
   if (!std::isfinite(bound) || bound <= 0.0) {
     time.at_step.fail(fmt::format(

@@ -24,12 +24,12 @@ std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution = 
 std::shared_ptr<const Scene> read_scene_with_advection(const Table& table);
 
 /// Model and kernel of a [[scheme]], or of another table that has the two.
-int read_model(const Table& table);
-KernelChoice read_kernel(const Table& table, int model);
+const ModelCard& read_model(const Table& table);
+KernelChoice read_kernel(const Table& table, const ModelCard& model);
 
 /// A [[scheme]]; `standing` decides whether it needs a divergence form.
 SchemeChoice read_scheme(const Table& table, const Scene& scene);
-/// All of [[scheme]], each once, with the viscosity bound of each (0 for Model I).
+/// All of [[scheme]], each once, with the viscosity bound of each (0 unless its model is viscous).
 struct SchemeEntry {
   SchemeChoice scheme;
   double mu;

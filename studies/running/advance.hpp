@@ -3,8 +3,6 @@
 /// @file
 /// Time loop of one scheme: source, motion and semidiscretization put together.
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -14,11 +12,12 @@
 #include "mms/source.hpp"
 #include "solver/particles.hpp"
 #include "solver/time/implicit.hpp"
-#include "solver/time/integrators.hpp"
+#include "solver/time/integrate.hpp"
 #include "studies/models/operator.hpp"
 #include "studies/models/scheme.hpp"
 #include "studies/running/outcome.hpp"
 #include "studies/running/run_case.hpp"
+#include "studies/running/step_rule.hpp"
 #include "studies/running/stopwatch.hpp"
 #include "studies/running/watch.hpp"
 
@@ -55,8 +54,10 @@ class MovingParticles {
 template <class Motion>
 class SchemeInMotion {
  public:
-  /// All arguments outlive the system.  @param result  gets the times and counts of what the scheme does not count
-  SchemeInMotion(const Case& c, Scheme& scheme, Source& source, Motion& motion, BoundWatch& watch, CaseResult& result)
+  /// All arguments outlive the system. The scheme knows its rows if the case is solved for or follows them.  @param
+  /// result  gets the times and counts of what the scheme does not count
+  SchemeInMotion(const Case& c, AnyScheme& scheme, Source& source, Motion& motion, BoundWatch& watch,
+                 CaseResult& result)
       : scheme_(scheme),
         source_(source),
         motion_(motion),
@@ -80,7 +81,7 @@ class SchemeInMotion {
   void solve(double t, double scale, PeriodicArray& u) {
     see(t);
     if (factorized_for_ != scale) {
-      scheme_.matrix(matrix_);
+      scheme_.rows()->matrix(matrix_);
       solver_.factorize(matrix_, scale);
       factorized_for_ = scale;
     }
@@ -91,7 +92,8 @@ class SchemeInMotion {
   /// The bound of the case's step rule at the particles of time t.
   double bound(double t) {
     move(t);
-    return bound_ == StepRule::Bound::rows ? 1.0 / scheme_.strongest_decay() : lemma_bound_ * smallest_gap().width;
+    return bound_ == StepRule::Bound::rows ? 1.0 / scheme_.rows()->strongest_decay()
+                                           : lemma_bound_ * smallest_gap().width;
   }
 
  private:
@@ -132,7 +134,7 @@ class SchemeInMotion {
     if (watched_) watch_.stage(lemma_bound_ * gap_.width, gap_.place);
   }
 
-  Scheme& scheme_;
+  AnyScheme& scheme_;
   Source& source_;
   Motion& motion_;
   BoundWatch& watch_;
@@ -150,7 +152,7 @@ class SchemeInMotion {
 
 /// Integrates from the exact initial values to T and measures the error; one repeat.
 template <class Motion>
-CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::atomic<bool>& stop) {
+CaseResult advance(const Case& c, AnyScheme& scheme, Source& source, const std::atomic<bool>& stop) {
   const Scene& scene = *c.scene;
   const auto count = static_cast<std::size_t>(c.N);
   CaseResult result;
@@ -163,7 +165,7 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   bool interrupted = false;
 
   BoundWatch watch;
-  const auto keep_going = [&](std::int64_t n, TimeStep step) {
+  const auto keep_going = [&](std::int64_t n, const TimeStep& step) {
     watch.step(n, step);
     count_step(result, n, step);
     t = step.end;
@@ -176,16 +178,13 @@ CaseResult advance(const Case& c, Scheme& scheme, Source& source, const std::ato
   const auto start = std::chrono::steady_clock::now();
   try {
     SchemeInMotion<Motion> system(c, scheme, source, motion, watch, result);
-    const auto run = [&](auto steps) { integrate(*c.integrator, u, std::move(steps), system, keep_going); };
-    if (c.step.bound == StepRule::Bound::none) {
-      run(EqualSteps(scene.T(), c.steps));
-    } else {
-      run(BoundedSteps(scene.T(),
-                       [&](double now) { return largest_step(c, now, [&](double at) { return system.bound(at); }); }));
-    }
+    Stepper stepper(*c.integrator, u.size());
+    step_to_end(
+        c, [&](double at) { return system.bound(at); }, [&](const TimeStep& step) { stepper(step, u, system); },
+        keep_going);
   } catch (const std::domain_error& error) {
     growth.restore(u.values());
-    result.failure = fmt::format("{} in step {}, from t = {:.6g} on", error.what(), result.steps + 1, t);
+    result.failure = failure_in_step(error, result, t);
   }
   result.against_bound = watch.result();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -65,6 +65,10 @@ std::string field_at_fault(const Scene& scene, std::span<const double> x, double
 
 }  // namespace
 
+std::string failure_in_step(const std::domain_error& error, const CaseResult& result, double t) {
+  return fmt::format("{} in step {}, from t = {:.6g} on", error.what(), result.steps + 1, t);
+}
+
 void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std::span<const double> u, double t,
               double solution_at_first, const std::function<std::span<const double>(double)>& positions) {
   const Scene& scene = *c.scene;
@@ -101,9 +105,8 @@ void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std:
   // A scene whose fields are not finite is no fault of the scheme: look at the stages of the last step.
   const double from = std::isnan(result.last.time) ? t : result.last.time;
   std::string fault = field_at_fault(scene, positions(t), t);
-  for (const Stage& stage : c.integrator->stages) {
-    if (!fault.empty()) break;
-    const double at = TimeStep{.begin = from, .end = t, .dt = t - from}.at(stage.time);
+  for (std::size_t k = 0; k < c.integrator->stage_count() && fault.empty(); ++k) {
+    const double at = TimeStep{.begin = from, .end = t, .dt = t - from}.at(c.integrator->c(k));
     fault = field_at_fault(scene, positions(at), at);
   }
   if (fault.empty()) return;

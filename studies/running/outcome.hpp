@@ -5,6 +5,8 @@
 
 #include <functional>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include "studies/running/run_case.hpp"
 #include "studies/running/watch.hpp"
@@ -17,6 +19,9 @@ struct Errors {
 };
 Errors errors_of(const Scene& scene, std::span<const double> x, std::span<const double> u,
                  std::span<const double> u_exact);
+
+/// Why a run ended in the step after those of `result`, which began at time t.
+std::string failure_in_step(const std::domain_error& error, const CaseResult& result, double t);
 
 /// Fills in fields, errors and how the run ended. Without an exact solution errors are NaN, and there is no `u_exact`.
 /// @param u          at time t

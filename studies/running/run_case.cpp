@@ -17,6 +17,9 @@ namespace {
 template <class Motion>
 CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
   const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
+  if (scheme->rows() == nullptr && (c.integrator->implicit() || c.step.bound == StepRule::Bound::rows)) {
+    throw std::domain_error("a control with sums of its own knows nothing of its rows: no implicit step, no bound");
+  }
   const auto source =
       make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule, c.source_refinement);
   return advance<Motion>(c, *scheme, *source, stop);
@@ -38,7 +41,7 @@ namespace {
 
 CaseResult run_readable(const Case& c, const std::atomic<bool>& stop) {
   if (c.scene->standing()) return run_once<StandingParticles>(c, stop);
-  if (c.scheme.control == misprinted_trajectories) return run_once<MisprintedParticles>(c, stop);
+  if (c.scheme.control != nullptr && c.scheme.control->flow != nullptr) return run_once<MisprintedParticles>(c, stop);
   return run_once<MovingParticles>(c, stop);
 }
 

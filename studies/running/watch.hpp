@@ -11,20 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/time/integrators.hpp"
+#include "solver/time/steps.hpp"
 #include "studies/running/run_case.hpp"
 
 namespace acstudy {
-
-/// The largest step that the step rule of a case allows from t on: by the particles at t and, where later stages see
-/// them moved, by those at the end of the step too.
-/// @param bound  bound(t): the rule's bound at the particles of time t
-template <class Bound>
-double largest_step(const Case& c, double t, Bound&& bound) {
-  const double now = c.step.safety * bound(t);
-  const bool looks_ahead = c.integrator->stages.size() > 1 && !c.scene->standing();
-  return looks_ahead ? std::min(now, c.step.safety * bound(std::min(t + now, c.scene->T()))) : now;
-}
 
 /// Takes a step into account.
 inline void count_step(CaseResult& result, std::int64_t n, TimeStep step) {

@@ -64,11 +64,13 @@ void for_each_attribute(const BenchSeries& planned, Visit&& visit) {
   const Case& first = series.cases.front();
   visit("study", planned.study->name);
   visit("title", planned.study->title);
-  visit("model", static_cast<std::int64_t>(series.scheme.model));
+  visit("model", static_cast<std::int64_t>(series.scheme.model->number));
   visit("divergence", std::string(series.scheme.nonlocal_divergence ? "nonlocal" : "local"));
   visit("kernel", series.scheme.kernel.name);
-  if (series.scheme.kernel.name == "power") visit("alpha", series.scheme.kernel.alpha);
-  if (series.scheme.model == 2) visit("mu", first.mu);
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    visit(std::string(parameter->name()).c_str(), series.scheme.kernel.parameter);
+  }
+  if (series.scheme.model->viscous) visit("mu", first.mu);
   visit("path", series.path);
   visit("delta", series.delta_text);
   visit("source", std::string(series.nonlocal_source ? "nonlocal" : "local"));

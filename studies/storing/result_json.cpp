@@ -44,11 +44,13 @@ json series_json(const SeriesResult& result) {
   const Series& series = *result.series;
   const Judgement& judgement = result.judgement;
   json out;
-  out["model"] = series.scheme.model;
+  out["model"] = series.scheme.model->number;
   out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
   out["kernel"] = series.scheme.kernel.name;
-  if (series.scheme.kernel.name == "power") out["alpha"] = series.scheme.kernel.alpha;
-  if (series.scheme.model == 2) out["mu"] = series.cases.front().mu;
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    out[std::string(parameter->name())] = series.scheme.kernel.parameter;
+  }
+  if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
   out["path"] = series.path;
   out["delta"] = series.delta_text;
   out["source"] = series.nonlocal_source ? "nonlocal" : "local";
@@ -181,8 +183,13 @@ SeriesRecord read_series(const std::string& study, const json& series) {
   SeriesRecord record;
   record.study = study;
   const bool standing = series.value("motion", std::string("moving")) == "standing";
-  const KernelChoice kernel{series.at("kernel").get<std::string>(), series.value("alpha", 0.0)};
-  const SchemeChoice scheme{.model = series.at("model").get<int>(),
+  KernelChoice kernel{series.at("kernel").get<std::string>()};
+  if (const NamedKernel* const row = find_kernel(kernel.name); row != nullptr && row->parameter) {
+    kernel.parameter = series.value(std::string(row->parameter->name()), 0.0);
+  }
+  const ModelCard* const model = find_model(series.at("model").get<std::int64_t>());
+  if (model == nullptr) throw std::invalid_argument("model = " + series.at("model").dump() + " is none");
+  const SchemeChoice scheme{.model = model,
                             .nonlocal_divergence = series.at("divergence").get<std::string>() == "nonlocal",
                             .kernel = kernel};
   record.label = scheme_label(scheme, standing) + ", " + series.at("path").get<std::string>();

@@ -27,11 +27,13 @@ constexpr const char* format = "acstudy-1";
 void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
-  h5::write_number<std::int64_t>(group, "model", series.scheme.model);
+  h5::write_number<std::int64_t>(group, "model", series.scheme.model->number);
   h5::write_text(group, "divergence", series.scheme.nonlocal_divergence ? "nonlocal" : "local");
   h5::write_text(group, "kernel", series.scheme.kernel.name);
-  if (series.scheme.kernel.name == "power") h5::write_number(group, "alpha", series.scheme.kernel.alpha);
-  if (series.scheme.model == 2) h5::write_number(group, "mu", series.cases.front().mu);
+  if (const auto& parameter = series.scheme.kernel.row().parameter) {
+    h5::write_number(group, std::string(parameter->name()), series.scheme.kernel.parameter);
+  }
+  if (series.scheme.model->viscous) h5::write_number(group, "mu", series.cases.front().mu);
   h5::write_text(group, "path", series.path);
   h5::write_text(group, "delta_text", series.delta_text);
   h5::write_text(group, "source", series.nonlocal_source ? "nonlocal" : "local");

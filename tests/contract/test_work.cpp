@@ -49,8 +49,8 @@ double pairs_in_closed_form(const Case& c) {
       const double x0 = static_cast<double>(j) * c.h;
       const double x = 2.0 * std::atan2(std::sin(0.5 * x0) * std::exp(t), std::cos(0.5 * x0));
       const double c_hat = std::cos(2.0 * x) / 3.0 - std::sin(x);
-      if (c.scheme.model == 2 || c_hat > 0.0) pairs += neighbors(c, x0, t, -1.0);
-      if (c.scheme.model == 2 || c_hat <= 0.0) pairs += neighbors(c, x0, t, 1.0);
+      if (c.scheme.model == &model_two || c_hat > 0.0) pairs += neighbors(c, x0, t, -1.0);
+      if (c.scheme.model == &model_two || c_hat <= 0.0) pairs += neighbors(c, x0, t, 1.0);
     }
   }
   return pairs;

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "studies/claims/extreme_rows.hpp"
-#include "studies/claims/printed_rate.hpp"
 #include "studies/storing/store.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
@@ -13,7 +12,11 @@ namespace acstudy {
 namespace {
 
 SchemeChoice scheme(int model, bool nonlocal, KernelChoice kernel) {
-  return {.model = model, .nonlocal_divergence = nonlocal, .kernel = std::move(kernel), .mu = {}, .control = {}};
+  return {.model = find_model(model),
+          .nonlocal_divergence = nonlocal,
+          .kernel = std::move(kernel),
+          .mu = {},
+          .control = {}};
 }
 
 /// Both models with a smooth and a singular kernel and either divergence, on fewer particles and steps than the study.
@@ -99,7 +102,7 @@ TEST_CASE("printed sums are the rates of the schemes", "[extremes]") {
         PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, delta);
         const std::vector<double> rate = placed.rate(u);
         for (std::size_t j = 0; j < x.size(); ++j) {
-          const PrintedRate printed = printed_rate(subject, x, u, delta, j);
+          const PrintedRate printed = subject.printed_rate(x, u, delta, j);
           CHECK(std::abs(rate[j] - printed.value) <= 1e-14 * printed.size);
           CHECK(std::abs(printed.value) <= printed.size);
         }

@@ -4,8 +4,10 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/time/integrators.hpp"
+#include "solver/particles.hpp"
+#include "solver/time/integrate.hpp"
 #include "tests/catch.hpp"
+#include "tests/general_tables.hpp"
 
 using namespace acstudy;
 using Catch::Matchers::WithinAbs;
@@ -52,27 +54,59 @@ std::vector<double> observed_orders(const Integrator& integrator, Rate rate, dou
   return order;
 }
 
+double depends_on_time(double t, double u) { return u * std::cos(t) + std::exp(std::sin(t)); }
+
 }  // namespace
 
 TEST_CASE("every integrator has its declared order and no more") {
-  for (const Integrator& integrator : integrators) {
-    INFO(integrator.name);
-    const auto check = [&](const std::vector<double>& orders) {
-      CAPTURE(orders);
-      // Within 0.1 for the last two of four: the next term of the error is h times smaller.
-      for (std::size_t i = 2; i < orders.size(); ++i) {
-        CHECK_THAT(orders[i], WithinAbs(integrator.order, 0.1));
+  for (const std::span<const Integrator> tables : {std::span(integrators), std::span(test::general_tables)}) {
+    for (const Integrator& integrator : tables) {
+      INFO(integrator.name);
+      const auto check = [&](const std::vector<double>& orders) {
+        CAPTURE(orders);
+        // Within 0.1 for the last two of four: the next term of the error is h times smaller.
+        for (std::size_t i = 2; i < orders.size(); ++i) {
+          CHECK_THAT(orders[i], WithinAbs(integrator.order, 0.1));
+        }
+      };
+      check(observed_orders(
+          integrator, [](double, double u) { return -1.3 * u; }, 1.0, std::exp(-1.3)));
+      // The rate depends on time: a stage at the wrong time loses an order. u = (1 + t) e^(sin t).
+      check(observed_orders(integrator, depends_on_time, 1.0, 2.0 * std::exp(std::sin(1.0))));
+      // Nonlinear, autonomous: u' = u^2, u = 1 / (1 - t).
+      check(observed_orders(
+          integrator, [](double, double u) { return u * u; }, 0.5, 2.0));
+    }
+  }
+}
+
+TEST_CASE("a table with a stage at the wrong time, or from the wrong rate, loses its order") {
+  std::vector<Stage> late(std::begin(test::rk4_stages), std::end(test::rk4_stages)), wrong = late;
+  late[1].c = 1.0;
+  wrong[2].beta = {1.0};  // F_0 in place of F_2
+  for (const auto& stages : {late, wrong}) {
+    const std::vector<double> orders =
+        observed_orders({"mistaken", 4, stages}, depends_on_time, 1.0, 2.0 * std::exp(std::sin(1.0)));
+    CAPTURE(orders);
+    CHECK(orders.back() < 3.1);
+  }
+}
+
+TEST_CASE("the rate of a stage is taken at its time") {
+  for (const std::span<const Integrator> tables : {std::span(integrators), std::span(test::general_tables)}) {
+    for (const Integrator& integrator : tables) {
+      for (std::size_t i = 1; i <= integrator.stage_count(); ++i) {
+        const Stage& stage = integrator.stage(i);
+        double u = 0.0, t = stage.beta[i];
+        for (std::size_t k = 0; k < i; ++k) {
+          u += stage.alpha[k];
+          t += stage.alpha[k] * integrator.c(k) + stage.beta[k];
+        }
+        CAPTURE(integrator.name, i);
+        CHECK_THAT(u, WithinAbs(1.0, 1e-15));
+        CHECK_THAT(t, WithinAbs(stage.c, 1e-15));
       }
-    };
-    check(observed_orders(
-        integrator, [](double, double u) { return -1.3 * u; }, 1.0, std::exp(-1.3)));
-    // The rate depends on time: a stage at the wrong time loses an order. u = (1 + t) e^(sin t).
-    check(observed_orders(
-        integrator, [](double t, double u) { return u * std::cos(t) + std::exp(std::sin(t)); }, 1.0,
-        2.0 * std::exp(std::sin(1.0))));
-    // Nonlinear, autonomous: u' = u^2, u = 1 / (1 - t).
-    check(observed_orders(
-        integrator, [](double, double u) { return u * u; }, 0.5, 2.0));
+    }
   }
 }
 
@@ -119,8 +153,11 @@ TEST_CASE("stages are convex and taken at their times") {
     }
     CHECK(times == all);
     for (const Stage& stage : integrators[i].stages) {
-      CHECK(stage.weight > 0.0);
-      CHECK(stage.weight <= 1.0);
+      for (std::size_t k = 0; k < most_stages; ++k) {
+        CHECK(stage.alpha[k] >= 0.0);
+        CHECK(stage.beta[k] >= 0.0);
+        CHECK(stage.beta[k] <= stage.alpha[k]);
+      }
     }
   }
 }

@@ -28,22 +28,22 @@ double largest(const Finding& finding) {
 
 template <class Check>
 void for_each_choice(Check check) {
-  for (const char* const name : {"inverse", "cubic-spline"}) check(WeightsChoice{1, {name}});
-  for (const double alpha : {-2.0, 0.0, 0.9, 1.0, 1.99}) check(WeightsChoice{1, {"power", alpha}});
-  check(WeightsChoice{2, {"cubic-spline"}});
-  for (const double alpha : {-2.0, 0.5, 0.99}) check(WeightsChoice{2, {"power", alpha}});
+  for (const char* const name : {"inverse", "cubic-spline"}) check(WeightsChoice{&model_one, {name}});
+  for (const double alpha : {-2.0, 0.0, 0.9, 1.0, 1.99}) check(WeightsChoice{&model_one, {"power", alpha}});
+  check(WeightsChoice{&model_two, {"cubic-spline"}});
+  for (const double alpha : {-2.0, 0.5, 0.99}) check(WeightsChoice{&model_two, {"power", alpha}});
 }
 
 }  // namespace
 
 TEST_CASE("weights and N_j agree with 50 digits, from horizons below every gap to 300 h", "[digits]") {
   for_each_choice([](const WeightsChoice& choice) {
-    INFO("Model " << choice.model << ", " << choice.kernel.label());
+    INFO(choice.model->name << ", " << choice.kernel.label());
     const Finding weights = round_off_of_weights(choice, ratios, CellForm::factored).take();
     CHECK(weights.points.size() == ratios.size());
     CHECK(weights.judgement.verdict == Verdict::holds);
     CHECK(largest(weights) < few_units);
-    if (choice.model == 1) return;
+    if (choice.model == &model_one) return;
     const Finding renormalization = round_off_of_renormalization(choice, ratios).take();
     CHECK(renormalization.judgement.verdict == Verdict::holds);
     CHECK(largest(renormalization) < few_units);
@@ -51,14 +51,14 @@ TEST_CASE("weights and N_j agree with 50 digits, from horizons below every gap t
 }
 
 TEST_CASE("plain sums of N_j over 2e4 neighbors keep their digits", "[digits]") {
-  const Finding finding = round_off_of_renormalization({2, {"cubic-spline"}}, {1e4}).take();
+  const Finding finding = round_off_of_renormalization({&model_two, {"cubic-spline"}}, {1e4}).take();
   CHECK(finding.judgement.verdict == Verdict::holds);
   CHECK(largest(finding) < few_units);
 }
 
 TEST_CASE("negative control: differences of closed forms lose digits, and it is seen", "[digits]") {
   for_each_choice([](const WeightsChoice& choice) {
-    INFO("Model " << choice.model << ", " << choice.kernel.label());
+    INFO(choice.model->name << ", " << choice.kernel.label());
     const Finding finding = round_off_of_weights(choice, ratios, CellForm::difference).take();
     CHECK(finding.judgement.verdict == Verdict::violated);
     CHECK(finding.expected == Verdict::violated);

@@ -15,7 +15,11 @@ namespace {
 Subject subject(int model, KernelChoice kernel, Arrangement arrangement, const std::string& name = "lee-du-2019",
                 bool nonlocal = false) {
   const auto on = test::named_scene(name);
-  return {{.model = model, .nonlocal_divergence = nonlocal, .kernel = std::move(kernel), .mu = {}, .control = {}},
+  return {{.model = find_model(model),
+           .nonlocal_divergence = nonlocal,
+           .kernel = std::move(kernel),
+           .mu = {},
+           .control = {}},
           on->max_relative_velocity(),
           on,
           arrangement};
@@ -24,21 +28,20 @@ Subject subject(int model, KernelChoice kernel, Arrangement arrangement, const s
 const KernelChoice inverse{"inverse"}, spline{"cubic-spline"}, steep{"power", 0.9};
 
 /// Another scheme's weights and rates, with a mistake.
-class Mistaken : public Scheme {
+class Mistaken : public AnyScheme {
  public:
-  explicit Mistaken(std::unique_ptr<Scheme> scheme) : right_(std::move(scheme)) {}
+  explicit Mistaken(std::unique_ptr<AnyScheme> scheme) : right_(std::move(scheme)) {}
   void place(const Particles& particles) override { right_->place(particles); }
   void rate(PeriodicArray& u, std::span<double> du) override {
     right_->rate(u, du);
     for (std::size_t j = 0; j < du.size(); ++j) du[j] *= 1.5;
   }
   Stencil stencil(std::ptrdiff_t j) const override { return right_->stencil(j); }
-  void matrix(RateMatrix& R) const override { right_->matrix(R); }
-  double strongest_decay() const override { return right_->strongest_decay(); }
+  const SchemeRows* rows() const override { return nullptr; }
   WorkCounts work() const override { return right_->work(); }
 
  private:
-  std::unique_ptr<Scheme> right_;
+  std::unique_ptr<AnyScheme> right_;
 };
 
 /// Column by column, with no band.
@@ -113,7 +116,7 @@ TEST_CASE("estimates hold with derived constants, and not of a mistaken scheme",
   const Sweep sweep{{80, 160, 320}, {0.01, 0.7, 2.0, 10.0}, {}};
   for (const int model : {1, 2}) {
     for (const Arrangement arrangement : arrangements) {
-      for (const LemmaEstimate& estimate : estimates(model)) {
+      for (const LemmaEstimate& estimate : find_model(model)->estimates) {
         const Finding finding =
             consistency_whatever_delta(subject(model, spline, arrangement, "lee-du-2019", true), estimate, sweep)
                 .take();
@@ -124,12 +127,12 @@ TEST_CASE("estimates hold with derived constants, and not of a mistaken scheme",
   }
   // Model I is within half the largest second derivative of its flux times h, and comes to it.
   const Finding sharp =
-      consistency_whatever_delta(subject(1, inverse, Arrangement::uniform), estimates(1)[0], sweep).take();
+      consistency_whatever_delta(subject(1, inverse, Arrangement::uniform), model_one.estimates[0], sweep).take();
   for (const Point& point : sharp.points) CHECK(point.value > 0.99 * point.upper);
 
   for (const int model : {1, 2}) {
     const Subject one = subject(model, spline, Arrangement::uniform);
-    for (const LemmaEstimate& estimate : estimates(model)) {
+    for (const LemmaEstimate& estimate : find_model(model)->estimates) {
       if (estimate.viscous) continue;
       const Finding right = consistency_whatever_delta(one, estimate, {{320}, {2.0}, {}}).take();
       const auto x = one.positions(320).front();
@@ -144,11 +147,11 @@ TEST_CASE("estimates hold with derived constants, and not of a mistaken scheme",
 TEST_CASE("an estimate fails along a path on which it promises nothing", "[operator]") {
   const Subject one = subject(1, inverse, Arrangement::uniform);
   PathChoice path{"delta = 1", Expression("1", {"h", "N"}), {80, 160, 320, 640}, false, {}, {}};
-  const LemmaEstimate& pde = estimates(1)[1];
+  const LemmaEstimate& pde = model_one.estimates[1];
   CHECK(consistency_along(one, pde, path).take().judgement.verdict != Verdict::holds);
   path.order = 0.0;
   CHECK(consistency_along(one, pde, path).take().judgement.verdict == Verdict::stagnates);
-  const LemmaEstimate& nonlocal = estimates(1)[0];
+  const LemmaEstimate& nonlocal = model_one.estimates[0];
   path.order = {};
   CHECK(consistency_along(one, nonlocal, path).take().judgement.verdict == Verdict::holds);
 }

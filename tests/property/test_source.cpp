@@ -40,20 +40,20 @@ double gap(const std::vector<double>& a, const std::vector<double>& b) {
 
 template <class Check>
 void for_each_model(Check check) {
-  const auto both_divergences = [&](const std::string& name, int model, const KernelProfile& kernel) {
+  const auto both_divergences = [&](const std::string& name, const ContinuumModel& model, const KernelProfile& kernel) {
     for (const bool nonlocal : {false, true}) {
-      check(
-          "Model " + std::to_string(model) + ", " + name + (nonlocal ? ", nonlocal divergence" : ", local divergence"),
-          NonlocalModel{model, nonlocal, kernel, 0.0, model == 2 ? 4.0 / 3.0 : 0.0});
+      check((&model == &upwind_continuum ? "Model I, " : "Model II, ") + name +
+                (nonlocal ? ", nonlocal divergence" : ", local divergence"),
+            NonlocalModel{&model, nonlocal, kernel, 0.0, &model == &viscous_continuum ? 4.0 / 3.0 : 0.0});
     }
   };
-  both_divergences("inverse", 1, profile(InverseKernel{}));
-  both_divergences("power 1.5", 1, profile(PowerKernel(1.5)));
-  both_divergences("power -1", 1, profile(PowerKernel(-1.0)));
-  both_divergences("cubic spline", 1, profile(CubicSplineKernel{}));
-  both_divergences("power 0.5", 2, profile(IntegrablePowerKernel(0.5)));
-  both_divergences("power -1", 2, profile(IntegrablePowerKernel(-1.0)));
-  both_divergences("cubic spline", 2, profile(CubicSplineKernel{}));
+  both_divergences("inverse", upwind_continuum, profile(InverseKernel{}));
+  both_divergences("power 1.5", upwind_continuum, profile(PowerKernel(1.5)));
+  both_divergences("power -1", upwind_continuum, profile(PowerKernel(-1.0)));
+  both_divergences("cubic spline", upwind_continuum, profile(CubicSplineKernel{}));
+  both_divergences("power 0.5", viscous_continuum, profile(IntegrablePowerKernel(0.5)));
+  both_divergences("power -1", viscous_continuum, profile(IntegrablePowerKernel(-1.0)));
+  both_divergences("cubic spline", viscous_continuum, profile(CubicSplineKernel{}));
 }
 
 }  // namespace
@@ -128,15 +128,15 @@ TEST_CASE("the fixed rule agrees with adaptive quadrature of the definitions, on
 TEST_CASE("where particles stand still the form of the divergence is of no matter") {
   const Scene scene(named_scenes()[1]);
   const auto x = points_of(scene, 40);
-  for (const int number : {1, 2}) {
-    NonlocalModel model{number, false, profile(CubicSplineKernel{}), 0.2, 1.5};
+  for (const ContinuumModel* const continuum : {&upwind_continuum, &viscous_continuum}) {
+    NonlocalModel model{continuum, false, profile(CubicSplineKernel{}), 0.2, 1.5};
     const auto local = values(*nonlocal_source(scene, model), x, 0.3);
     model.nonlocal_divergence = true;
     CHECK(values(*nonlocal_source(scene, model), x, 0.3) == local);
   }
   // Where they move it is.
   const Scene moving(named_scenes()[0]);
-  NonlocalModel model{1, false, profile(CubicSplineKernel{}), 0.2, 0.0};
+  NonlocalModel model{&upwind_continuum, false, profile(CubicSplineKernel{}), 0.2, 0.0};
   const auto local = values(*nonlocal_source(moving, model), x, 0.3);
   model.nonlocal_divergence = true;
   CHECK(gap(values(*nonlocal_source(moving, model), x, 0.3), local) > 1e-3);
@@ -164,7 +164,7 @@ TEST_CASE("without viscosity Model II is second order in delta: w is odd") {
   const Scene scene(named_scenes()[0]);
   const auto x = points_of(scene, 60);
   const auto local = values(*local_source(scene), x, 0.6);
-  NonlocalModel model{2, true, profile(CubicSplineKernel{}), 0.0, 0.0};
+  NonlocalModel model{&viscous_continuum, true, profile(CubicSplineKernel{}), 0.0, 0.0};
   std::vector<double> error;
   for (const double delta : {0.1, 0.05, 0.025, 0.0125}) {
     model.delta = delta;
@@ -182,7 +182,7 @@ TEST_CASE("the number of Gauss points is the fewest that reach round-off") {
       model.delta = delta;
       const auto chosen = nonlocal_source(scene, model);
       const auto f = values(*chosen, x, 0.6);
-      const std::size_t sides = model.model == 1 ? 1 : 4;  // Model II: two sides, two rules
+      const std::size_t sides = model.continuum == &upwind_continuum ? 1 : 4;  // Model II: two sides, two rules
       const auto points = static_cast<std::size_t>(chosen->quadrature_points()) / (x.size() * sides);
       INFO(name << ", delta = " << delta << ", " << points << " points");
       CHECK(chosen->quadrature_points() == static_cast<std::int64_t>(points * x.size() * sides));
@@ -205,7 +205,7 @@ TEST_CASE("the number of Gauss points is the fewest that reach round-off") {
 TEST_CASE("fields that vary too fast within the horizon are refused, with the way out") {
   const Scene rough(
       {.name = "", .period = "2*pi", .T = "1", .c = "1", .b = std::nullopt, .u = "cos(400*x)", .flow = std::nullopt});
-  NonlocalModel model{1, false, profile(InverseKernel{}), 2.5, 0.0};
+  NonlocalModel model{&upwind_continuum, false, profile(InverseKernel{}), 2.5, 0.0};
   CHECK_THROWS_AS(nonlocal_source(rough, model), std::domain_error);
   CHECK_THROWS_WITH(nonlocal_source(rough, model),
                     "no Gauss rule of up to 40 points integrates the source at delta = 2.5 to round-off; the fields "
@@ -216,25 +216,25 @@ TEST_CASE("fields that vary too fast within the horizon are refused, with the wa
 TEST_CASE("a source that cancels to less than its terms is not mistaken for a rough one") {
   // Here u solves the PDE, so that f is O(delta) and the sum of two terms of order one.
   const Scene scene(named_scenes()[2]);
-  CHECK_NOTHROW(nonlocal_source(scene, {1, false, profile(InverseKernel{}), 1e-4, 0.0}));
+  CHECK_NOTHROW(nonlocal_source(scene, {&upwind_continuum, false, profile(InverseKernel{}), 1e-4, 0.0}));
 }
 
 TEST_CASE("a field that is smooth on the scale of the horizon is not refused, however short its wave") {
   const Scene scene(
       {.name = "", .period = "2*pi", .T = "1", .c = "1", .b = std::nullopt, .u = "cos(400*x)", .flow = std::nullopt});
-  CHECK_NOTHROW(nonlocal_source(scene, {1, false, profile(InverseKernel{}), 1e-3, 0.0}));
+  CHECK_NOTHROW(nonlocal_source(scene, {&upwind_continuum, false, profile(InverseKernel{}), 1e-3, 0.0}));
 }
 
 TEST_CASE("short waves: the adaptive references agree with the fixed rule below and above their switch of formulas") {
   const Scene scene(
       {.name = "", .period = "2*pi", .T = "1", .c = "1", .b = std::nullopt, .u = "cos(100*x)", .flow = std::nullopt});
   const std::vector<double> x = {0.3, 1.7, 4.4};
-  for (const int number : {1, 2}) {
+  for (const ContinuumModel* const continuum : {&upwind_continuum, &viscous_continuum}) {
     for (const double delta : {1e-3, 0.0099, 0.1}) {
-      const NonlocalModel model{number, false, profile(CubicSplineKernel{}), delta, 1.0};
+      const NonlocalModel model{continuum, false, profile(CubicSplineKernel{}), delta, 1.0};
       const auto f = values(*nonlocal_source(scene, model), x, 0.6);
       for (const SourceRule rule : {SourceRule::gsl, SourceRule::boost}) {
-        CAPTURE(number, delta);
+        CAPTURE(continuum->sided, delta);
         // Round-off of the argument 100 x, and of the differences of u over 1e-3 of the period.
         CHECK(gap(f, values(*nonlocal_source(scene, model, rule), x, 0.6)) < 1e-11);
       }
@@ -244,5 +244,6 @@ TEST_CASE("short waves: the adaptive references agree with the fixed rule below 
 
 TEST_CASE("a kernel too singular for its Gauss rule is refused, not aborted") {
   const Scene scene(named_scenes()[2]);
-  CHECK_THROWS_AS(nonlocal_source(scene, {1, false, profile(PowerKernel(-200.0)), 0.1, 0.0}), std::domain_error);
+  CHECK_THROWS_AS(nonlocal_source(scene, {&upwind_continuum, false, profile(PowerKernel(-200.0)), 0.1, 0.0}),
+                  std::domain_error);
 }

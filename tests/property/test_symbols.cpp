@@ -11,7 +11,7 @@
 #include "mms/source.hpp"
 #include "solver/model1.hpp"
 #include "solver/model2.hpp"
-#include "solver/time/integrators.hpp"
+#include "solver/time/integrate.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
 #include "tests/kernel_integrals.hpp"
@@ -220,8 +220,8 @@ TEST_CASE("the nonlocal source of Model I for u = cos(kx), c = 1 is the exact sy
       for (const int k : {1, 3}) {
         INFO(name << ", delta = " << delta << ", k = " << k);
         const Complex S = upwind_symbol(moments, k, delta);
-        CHECK(source_error({1, false, profile(kernel), delta, 0.0}, k, S) < 1e-13);
-        CHECK(source_error({1, true, profile(kernel), delta, 0.0}, k, S) < 1e-13);
+        CHECK(source_error({&upwind_continuum, false, profile(kernel), delta, 0.0}, k, S) < 1e-13);
+        CHECK(source_error({&upwind_continuum, true, profile(kernel), delta, 0.0}, k, S) < 1e-13);
       }
     }
   };
@@ -241,7 +241,7 @@ TEST_CASE("the nonlocal source of Model II for u = cos(kx), c = 1 is the exact s
           if (mu == 0.0 && delta > 1.0) continue;
           INFO(name << ", delta = " << delta << ", k = " << k << ", mu = " << mu);
           const Complex S = central_symbol(moments, k, delta) - delta * mu * viscous_symbol(moments, k, delta);
-          CHECK(source_error({2, false, profile(kernel), delta, mu}, k, S) < 1e-13);
+          CHECK(source_error({&viscous_continuum, false, profile(kernel), delta, mu}, k, S) < 1e-13);
         }
       }
     }

@@ -13,10 +13,10 @@ namespace acstudy {
 namespace {
 
 /// Cases that share their sweeps, by what they share: particles, then sweeps.
-using Sweeps = std::map<std::pair<std::string, std::string>, Batch>;
+using BatchesBySweep = std::map<std::pair<std::string, std::string>, Batch>;
 
-Sweeps sweeps_of(std::span<const Case* const> cases, std::span<const std::size_t> which) {
-  Sweeps sweeps;
+BatchesBySweep sweeps_of(std::span<const Case* const> cases, std::span<const std::size_t> which) {
+  BatchesBySweep sweeps;
   for (const std::size_t i : which) {
     const Case& c = *cases[i];
     const bool vector = runs_in_vector_form(c);
@@ -28,7 +28,7 @@ Sweeps sweeps_of(std::span<const Case* const> cases, std::span<const std::size_t
 }
 
 /// Puts sweeps on the same particles together, up to `most` work a batch. Heaviest batch first.
-std::vector<Batch> batches_up_to(double most, const Sweeps& sweeps) {
+std::vector<Batch> batches_up_to(double most, const BatchesBySweep& sweeps) {
   std::vector<Batch> batches;
   const std::string* particles = nullptr;
   for (const auto& [key, sweep] : sweeps) {
@@ -58,7 +58,7 @@ std::vector<Batch> batches_up_to(double most, std::span<const Case* const> cases
 std::vector<Batch> batches_of(std::span<const Case* const> cases, int workers) {
   std::vector<std::size_t> all(cases.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const Sweeps sweeps = sweeps_of(cases, all);
+  const BatchesBySweep sweeps = sweeps_of(cases, all);
   double total = 0.0;
   for (const auto& [key, sweep] : sweeps) total += sweep.work;
   for (const double parts : {1.0, 2.0}) {

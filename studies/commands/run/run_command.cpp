@@ -90,9 +90,9 @@ void note_steps_beyond_bounds(const std::vector<StudyResult>& studies) {
       if (bound.first_step == 0 || cases[worst].step.bound == StepRule::Bound::rows) continue;
       say(
           fmt::format("note: {}: {}, N = {}: from step {} on (t = {:.4g}, smallest gap at x = {:.6g}) steps are beyond "
-                      "the bound of Lemma {}, by a factor of up to {:.3g}",
+                      "the bound of {}, by a factor of up to {:.3g}",
                       study.study->name, result.series->label(), cases[worst].N, bound.first_step, bound.first_time,
-                      bound.first_place, result.series->scheme.model == 1 ? "2.4" : "3.3", bound.largest));
+                      bound.first_place, result.series->scheme.model->step_lemma.name, bound.largest));
     }
   }
 }

@@ -8,15 +8,11 @@
 #include <memory>
 #include <optional>
 
-#include "mms/source_series.hpp"
-#include "solver/time/integrators.hpp"
-#include "solver/vector/clones.hpp"
 #include "studies/models/scheme.hpp"
-#include "studies/running/ensemble/shared_particles.hpp"
-#include "studies/running/ensemble/sweep_group.hpp"
+#include "studies/running/ensemble/member.hpp"
 #include "studies/running/outcome.hpp"
+#include "studies/running/step_rule.hpp"
 #include "studies/running/stopwatch.hpp"
-#include "studies/running/watch.hpp"
 
 namespace acstudy {
 
@@ -36,10 +32,17 @@ double panel_reach(const Case& c) {
 
 bool runs_in_vector_form(const Case& c) {
   if (c.readable) return false;
-  if (c.integrator->implicit() || !c.scheme.control.empty() || c.step.bound == StepRule::Bound::rows) return false;
-  if (c.scene->standing() || c.scheme.model == 1) return true;
-  return c.scheme.model == 2 &&
-         (midpoint_modes(VelocitySeries(*c.scene)) || VelocityPanels::find(*c.scene, panel_reach(c)));
+  if (c.integrator->implicit() || c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows) return false;
+  if (c.scene->standing()) return true;
+  switch (c.scheme.model->vector_form) {
+    case VectorForm::none:
+      return false;
+    case VectorForm::upwind:
+      return true;
+    case VectorForm::symmetric:
+      return midpoint_modes(VelocitySeries(*c.scene)) || VelocityPanels::find(*c.scene, panel_reach(c));
+  }
+  return false;
 }
 
 std::string ensemble_key(const Case& c) {
@@ -52,110 +55,10 @@ std::string ensemble_key(const Case& c) {
 }
 
 std::string sweep_key(const Case& c) {
-  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model, c.scheme.kernel.label(), c.delta, c.mu);
+  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model->number, c.scheme.kernel.label(), c.delta, c.mu);
 }
 
 namespace {
-
-/// next = (1 - weight) u^n + weight (u + dt (rate + f)) at some particles.
-/// @return  the largest |next|; NaN if one is not finite
-ACSTUDY_VECTOR_CLONES double apply_stage(double weight, double dt, const double* u_n, const double* u,
-                                         const double* rate, const double* f, double* next, std::ptrdiff_t count) {
-  double largest = 0.0, sum = 0.0;
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-  for (std::ptrdiff_t j = 0; j < count; ++j) {
-    const double value = (1.0 - weight) * u_n[j] + weight * (u[j] + dt * (rate[j] + f[j]));
-    next[j] = value;
-    largest = std::abs(value) > largest ? std::abs(value) : largest;
-    sum += 0.0 * value;  // NaN if the value is not finite, which the comparison passes over
-  }
-  return largest + sum;
-}
-
-/// The larger of two sizes; NaN if one is.
-double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
-
-/// A source at all particles, by its series if it has one; zero, and never computed, where the scene has none.
-class ParticleSource {
- public:
-  ParticleSource(const Scene& scene, const SourceSeries::MakeSource& make, bool sided, bool may_be_series,
-                 std::size_t count)
-      : f_(count) {
-    if (scene.sourceless()) return;
-    // More samples than particles would be no saving.
-    if (may_be_series) series_ = SourceSeries::find(scene, make, sided, std::min<std::size_t>(count / 2, 96));
-    if (!series_) direct_ = make(Look::upwind);
-  }
-  bool is_series() const { return series_.has_value(); }
-
-  // f at time t: by a series, which is found once for all pieces of particles, or directly for all particles.
-  void find_series(double t) {
-    if (series_) series_->at(t);
-  }
-  void evaluate_series(const SharedParticles& particles, const Piece& piece, Laps& laps) {
-    if (!series_) return;
-    const auto c_hat = series_->sided() ? piece.of(particles.c_hat.values()) : std::span<const double>();
-    series_->evaluate(particles.phases(piece), c_hat, piece.of(std::span(f_)));
-    laps.end_of(seconds);
-  }
-  void evaluate_directly(double t, const SharedParticles& particles) {
-    if (!direct_) return;
-    if (placed_ != particles.times_moved()) direct_->place(particles.x.values());
-    placed_ = particles.times_moved();
-    direct_->evaluate(t, f_);
-  }
-
-  const double* f() const { return f_.data(); }
-  std::int64_t quadrature_points() const {
-    return series_ ? series_->quadrature_points() : direct_ ? direct_->quadrature_points() : 0;
-  }
-
-  double seconds = 0.0;
-
- private:
-  std::optional<SourceSeries> series_;
-  std::unique_ptr<Source> direct_;
-  std::int64_t placed_ = 0;  ///< the move of the particles after which `direct_` was placed
-  ZeroedVector f_;
-};
-
-/// A case on its way.
-struct Member {
-  Member(const Case& its_case, std::size_t count, const Team& team)
-      : c(its_case),
-        values{PeriodicArray(count),
-               PeriodicArray(its_case.scheme.model == 1 && !its_case.scene->standing() ? count : 0),
-               ZeroedVector(count + 16)},
-        next(count),
-        u_n(its_case.integrator->stage_count() > 1 ? count : 0),
-        largest(team, 0.0) {}
-
-  /// u at the start of the step, from its first stage to that of the next.
-  PeriodicArray& before() { return u_n.size() > 0 ? u_n : next; }
-
-  /// Takes what a stage has made of u.
-  void accept(bool first_stage) {
-    std::swap(values.u, next);
-    if (first_stage && u_n.size() > 0) std::swap(next, u_n);
-  }
-
-  const Case& c;
-  CaseResult result;
-  SweptValues values;
-  PeriodicArray next;  ///< what becomes of u
-  PeriodicArray u_n;   ///< at the start of the step, where there are several stages
-  SweepGroup* group = nullptr;
-  ParticleSource* source = nullptr;
-  std::optional<ParticleSource> own_source;
-  std::optional<GrowthWatch> growth;
-  BoundWatch bound;
-  double lemma_bound = 0.0;  ///< for a smallest gap of 1
-  double solution_at_first = 0.0;
-  PerThread<double> largest;  ///< |u| after the last stage
-  double t = 0.0;
-  bool running = true;
-  bool put_off = false;  ///< left where it is, to be run another time
-};
 
 class Ensemble {
  public:
@@ -172,18 +75,12 @@ class Ensemble {
     double seconds = 0.0;
     timed(seconds, [&] {
       try {
-        if (first_.step.bound == StepRule::Bound::none) {
-          go(EqualSteps(scene_.T(), first_.steps));
-        } else {
-          go(BoundedSteps(scene_.T(), [&](double now) {
-            return largest_step(first_, now, [&](double t) { return lemma_bound(t); });
-          }));
-        }
+        go();
       } catch (const std::domain_error& error) {
         for (Member& m : members_) {
           if (!m.running) continue;
-          if (stages_done_ > 0) std::swap(m.values.u, m.before());
-          m.result.failure = fmt::format("{} in step {}, from t = {:.6g} on", error.what(), m.result.steps + 1, m.t);
+          m.take_back(stages_done_);
+          m.result.failure = failure_in_step(error, m.result, m.t);
         }
       }
     });
@@ -211,13 +108,14 @@ class Ensemble {
       Member& m = members_.emplace_back(*c, count, team_);
       add_source(m, count);
       const bool moving = !scene_.standing(), local = !c->scheme.nonlocal_divergence;
-      needs.c_hat |= c->scheme.model == 1 && moving;
-      needs.c_and_b |= c->scheme.model == 1 && moving && !local;
+      const VectorForm form = c->scheme.model->vector_form;
+      needs.c_hat |= form == VectorForm::upwind && moving;
+      needs.c_and_b |= form == VectorForm::upwind && moving && !local;
       needs.b_prime |= local && moving;
-      needs.midpoints |= c->scheme.model == 2 && moving;
+      needs.midpoints |= form == VectorForm::symmetric && moving;
       needs.phases |= m.source->is_series();
       // The side of a source is that of c_hat.
-      needs.c_hat |= c->scheme.model == 1 && m.source->is_series() && c->nonlocal_source;
+      needs.c_hat |= c->scheme.model->continuum->sided && m.source->is_series() && c->nonlocal_source;
       needs.delta = std::max(needs.delta, c->delta);
     }
     particles_.emplace(scene_, start_positions(first_.start, count, scene_.period()), needs, team_);
@@ -256,8 +154,8 @@ class Ensemble {
       NonlocalModel model = nonlocal_model(c.scheme, c.mu, c.delta);
       const std::size_t points = c.source_refinement * sufficient_points(scene_, model);
       m.own_source.emplace(
-          scene_, [&](Look look) { return nonlocal_source(scene_, model, points, look); }, c.scheme.model == 1, true,
-          count);
+          scene_, [&](Look look) { return nonlocal_source(scene_, model, points, look); },
+          c.scheme.model->continuum->sided, true, count);
     } else {
       m.own_source.emplace(
           scene_, [&](Look) { return make_source(c.scheme, scene_, c.mu, true, c.delta, c.source_rule); }, false, false,
@@ -266,27 +164,30 @@ class Ensemble {
     m.source = &*m.own_source;
   }
 
-  template <class Steps>
-  void go(Steps steps) {
+  void go() {
     const auto start = std::chrono::steady_clock::now();
     std::int64_t n = 0;
-    while (const std::optional<TimeStep> step = steps.next()) {
-      interrupted_ = stop_.load(std::memory_order_relaxed);
-      if (interrupted_) return;
+    const auto take = [&](const TimeStep& step) {
       // Times are taken in all of the first steps and then in the middle one of every sixteen.
       team_.weigh(n < 64 ? 1.0 : n % 16 == 8 ? 16.0 : 0.0);
-      for (const Stage& stage : first_.integrator->stages) {
-        advance(stage, *step);
-        ++stages_done_;
+      ++n;
+      for (std::size_t i = 1; i <= first_.integrator->stage_count(); ++i) {
+        advance(i, step);
+        stages_done_ = i;
       }
       stages_done_ = 0;
-      ++n;
-      if (!look(n, *step)) return;
+    };
+    const auto goes_on = [&](std::int64_t, const TimeStep& step) {
+      if (!look(n, step)) return false;
       if (!weighed_up_ && std::isfinite(most_seconds_) && (n <= 64 || n % 16 == 0)) {
         const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (elapsed > 0.1 * most_seconds_) weigh_up(elapsed, step->end / scene_.T());
+        if (elapsed > 0.1 * most_seconds_) weigh_up(elapsed, step.end / scene_.T());
       }
-    }
+      interrupted_ = step.end < scene_.T() && stop_.load(std::memory_order_relaxed);
+      return !interrupted_;
+    };
+    step_to_end(
+        first_, [&](double t) { return lemma_bound(t); }, take, goes_on);
   }
 
   /// Puts groups off if all would take much longer than is wanted, by what this part of the run has taken. What is put
@@ -321,11 +222,10 @@ class Ensemble {
     }
   }
 
-  /// One stage, in as few passes over the particles as there are times that all must wait for each other: first what
+  /// Stage i, in as few passes over the particles as there are times that all must wait for each other: first what
   /// each of them needs no neighbor for, then for each group its sums, from which its cases step on.
-  void advance(const Stage& stage, TimeStep step) {
-    const double t = step.at(stage.time);
-    const bool first_stage = &stage == &first_.integrator->stages.front();
+  void advance(std::size_t i, const TimeStep& step) {
+    const double t = step.at(first_.integrator->c(i - 1));
     each_source([&](ParticleSource& source) { team_.timed(source.seconds, [&] { source.find_series(t); }); });
     particles_->move(t, [&](const Piece& piece, Laps& laps) {
       each_source([&](ParticleSource& source) { source.evaluate_series(*particles_, piece, laps); });
@@ -340,17 +240,12 @@ class Ensemble {
       if (group->empty()) continue;
       group->rates(team_, [&](const Piece& piece) {
         for (Member& m : members_) {
-          if (!m.running || m.group != group.get()) continue;
-          const std::ptrdiff_t j = piece.begin;
-          const double here =
-              apply_stage(stage.weight, step.dt, first_stage ? m.values.u.at(j) : m.u_n.at(j), m.values.u.at(j),
-                          m.values.rate.data() + j, m.source->f() + j, &m.next[j], piece.size());
-          m.largest[piece] = larger(m.largest[piece], here);
+          if (m.running && m.group == group.get()) m.stage(i, step.dt, piece);
         }
       });
     }
     for (Member& m : members_) {
-      if (m.running) m.accept(first_stage);
+      if (m.running) m.accept(i);
     }
   }
 
@@ -373,7 +268,7 @@ class Ensemble {
   }
 
   /// After a step; false if there is nothing more to do.
-  bool look(std::int64_t n, TimeStep step) {
+  bool look(std::int64_t n, const TimeStep& step) {
     bool any = false;
     for (Member& m : members_) {
       if (!m.running) continue;
@@ -384,7 +279,7 @@ class Ensemble {
       const double largest = m.largest.all(larger);
       m.running = m.growth->makes_sense(n, step.end, m.values.u.values(), largest, exact_size);
       if (!m.running) {
-        if (!std::isfinite(largest)) std::swap(m.values.u, m.before());
+        if (!std::isfinite(largest)) m.take_back(first_.integrator->stage_count());
         m.group->remove(m.values);
       }
       any |= m.running;
@@ -427,7 +322,8 @@ class Ensemble {
     if (scene_.standing()) {
       r.work.velocity_evaluations = std::ssize(particles_->x);
     } else {
-      r.work.velocity_evaluations = placements * ((m.c.scheme.model == 1 ? 2 : 0) + (local ? 1 : 0));
+      r.work.velocity_evaluations =
+          placements * ((m.c.scheme.model->vector_form == VectorForm::upwind ? 2 : 0) + (local ? 1 : 0));
       r.flow_evaluations = placements - std::ssize(particles_->x);
     }
     r.quadrature_points = m.source->quadrature_points();
@@ -443,7 +339,7 @@ class Ensemble {
   std::vector<Member> members_;
   std::vector<std::unique_ptr<SweepGroup>> groups_;
   std::optional<ParticleSource> local_source_;
-  int stages_done_ = 0;  ///< of a step that is not finished
+  std::size_t stages_done_ = 0;  ///< of a step that is not finished
   double setup_seconds_ = 0.0;
 };
 

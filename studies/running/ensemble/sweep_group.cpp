@@ -19,20 +19,13 @@ ACSTUDY_VECTOR_CLONES void product(const double* a, const double* b, std::span<d
 }  // namespace
 
 struct SweepGroup::Kernel {
-  std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel> kernel;
+  AnyKernel kernel;
   SweepKernel sweep;
 
-  explicit Kernel(const KernelChoice& choice)
-      : kernel(with_kernel(choice, [](const auto& k) -> decltype(kernel) { return k; })) {
+  explicit Kernel(const KernelChoice& choice) : kernel(choice.row().make(choice.parameter)) {
+    sweep.form = choice.row().form;
     std::visit(
         [&]<class K>(const K& k) {
-          if constexpr (std::is_same_v<K, InverseKernel>) {
-            sweep.form = SweepKernel::Form::inverse;
-          } else if constexpr (std::is_same_v<K, CubicSplineKernel>) {
-            sweep.form = SweepKernel::Form::cubic_spline;
-          } else {
-            sweep.form = SweepKernel::Form::scalar;
-          }
           sweep.kernel = &k;
           sweep.first_moment = [](const void* itself, double z) {
             return static_cast<const K*>(itself)->first_moment(z);
@@ -53,12 +46,12 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
       mu_(c.mu),
       kernel_label_(c.scheme.kernel.label()) {
   if (!c.scene->standing()) return;
-  const std::unique_ptr<Scheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
+  const std::unique_ptr<AnyScheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
   Particles at_rest(particles.size(), c.scene->period(), c.delta);
   at_rest.place(particles.x.values());
   readable->place(at_rest);
   RateMatrix R;
-  readable->matrix(R);
+  readable->rows()->matrix(R);
   standing_ = std::make_unique<BandedMatrix>(R, sweeps().lanes);
   standing_pairs_ = std::ssize(R.value) - std::ssize(particles.x);
   work_.weight_builds = 1;
@@ -84,7 +77,7 @@ void SweepGroup::remove(const SweptValues& values) {
 }
 
 void SweepGroup::prepare(const Piece& piece, Laps& laps) {
-  if (standing_ || model_ != 1) return;
+  if (standing_ || model_->vector_form != VectorForm::upwind) return;
   for (SweptValues* values : {local_, nonlocal_}) {
     if (values == nullptr) continue;
     product(particles_.c_hat.at(piece.begin), values->u.at(piece.begin), piece.of(values->flux.values()));
@@ -118,14 +111,15 @@ void SweepGroup::sweep_standing(Team& team, const AndThen& and_then) {
 
 void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
   const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(delta_), lanes = sweeps().lanes;
+  const bool upwind = model_->vector_form == VectorForm::upwind;
   const auto scheme = [&](SweptValues* values) {
     SweepScheme swept;
     if (values == nullptr) return swept;
-    if (model_ == 1) {
+    if (upwind) {
       values->flux.wrap(reach);
       swept.flux = values->flux.at(0);
     }
-    values->u.wrap(model_ == 1 ? lanes : reach);
+    values->u.wrap(upwind ? lanes : reach);
     swept.u = values->u.at(0);
     swept.rate = values->rate.data();
     return swept;
@@ -167,7 +161,7 @@ void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
       each_range(32, [&](const Piece& piece) { pairs[piece] += direct(range_of(piece.begin, piece.end), sweep); });
     }
   };
-  if (model_ == 1) {
+  if (upwind) {
     const UpwindSweep sweep{kernel_->sweep,
                             begin_of(particles_.c_hat),
                             begin_of(particles_.b_prime),

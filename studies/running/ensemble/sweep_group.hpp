@@ -59,7 +59,7 @@ class SweepGroup {
 
   const SharedParticles& particles_;
   std::unique_ptr<Kernel> kernel_;
-  int model_;
+  const ModelCard* model_;
   double delta_, mu_;
   std::string kernel_label_;
   SweptValues *local_ = nullptr, *nonlocal_ = nullptr;

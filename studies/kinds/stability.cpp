@@ -14,7 +14,7 @@ namespace {
 
 void read_stability(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
-  const Resolutions resolutions = read_resolutions(root.sub_table("resolutions"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene);
   const std::vector<Subject> subjects = read_subjects(root, study.scene);
 
   // The kernels with which Lemma 3.3 as printed is expected to fail.

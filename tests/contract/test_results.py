@@ -99,10 +99,13 @@ class Results(ProgramTest):
             equal(value, self.file["provenance"].attrs[name], name)
         equal(WIDE, self.file.attrs["study_text"], "study_text")
         for series, group in self.pairs:
-            renamed = {"delta": "delta_text", "step": "step_text"}
+            renamed = {"delta": "delta_text", "step": "step_text", "variable": "variable_name"}
             for key, value in series.items():
-                if key not in ("theory", "observed", "cases"):
+                if key not in ("theory", "observed", "cases", "coordinates"):
                     equal(value, group.attrs[renamed.get(key, key)], key)
+            self.assertEqual(set(series["coordinates"]), set(group["coordinates"].attrs))
+            for key, value in series["coordinates"].items():
+                equal(value, group["coordinates"].attrs[key], key)
             for key, value in series["theory"].items():
                 equal(value, group.attrs[f"theory_{key}"], key)
             for key, value in series["observed"].items():

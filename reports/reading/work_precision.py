@@ -84,8 +84,8 @@ def fit_law(N, neighbors, y, use=True):
         return None
     solution = np.linalg.lstsq(A, log_y, rcond=None)[0]
     chosen = np.random.default_rng(1).integers(len(log_y), size=(RESAMPLES, len(log_y)))
-    exponents = [np.linalg.lstsq(A[rows], log_y[rows], rcond=None)[0][1:] for rows in chosen
-                 if np.linalg.matrix_rank(A[rows]) == 3]
+    chosen = chosen[np.linalg.matrix_rank(A[chosen]) == 3]
+    exponents = (np.linalg.pinv(A[chosen]) @ log_y[chosen][..., None])[:, 1:, 0]
     low, high = np.percentile(exponents, (2.5, 97.5), axis=0)
     rms = math.sqrt(np.mean((A @ solution - log_y) ** 2))
     return Law(math.exp(solution[0]), solution[1], (low[0], high[0]), solution[2], (low[1], high[1]), rms,

@@ -62,7 +62,7 @@ void read_digits(const Table& root, Study& study) {
 }
 
 constexpr Key weights_keys[] = {
-    {"model", "1 or 2", "Model I or Model II"},
+    {"model", "whole number", "as in a [[scheme]]"},
     {"kernel", "a kernel", "as in a [[scheme]]"},
 };
 constexpr Key digits_keys[] = {

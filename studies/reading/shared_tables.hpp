@@ -45,7 +45,7 @@ constexpr auto with_kernel_keys(const Key (&keys)[n]) {
 }
 
 inline constexpr auto scheme_keys = with_kernel_keys({
-    {"model", "1 or 2", "Model I or Model II"},
+    {"model", "whole number", "the model, by the number that acstudy list schemes prints"},
     {"divergence", "\"local\", \"nonlocal\"", "b' is exact, or made of the kernel", "needed where particles move"},
     {"kernel", "a kernel", "by name, or as a table with its parameters"},
     {"kernel.name", "a kernel", "the name, in a table"},

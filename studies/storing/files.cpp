@@ -13,6 +13,11 @@ namespace acstudy {
 
 namespace fs = std::filesystem;
 
+void cannot_be_written(const fs::path& file, int error) {
+  throw StoreError(
+      fmt::format("{}: cannot be written: {}; free space or name another place", file.string(), std::strerror(error)));
+}
+
 void replace_atomically(const fs::path& file, std::span<const char> content) {
   const fs::path temporary = file.string() + fmt::format(".{}.partial", getpid());
   std::FILE* const stream = std::fopen(temporary.c_str(), "wb");
@@ -27,8 +32,7 @@ void replace_atomically(const fs::path& file, std::span<const char> content) {
   if (good) return;
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw StoreError(
-      fmt::format("{}: cannot be written: {}; free space or name another place", file.string(), std::strerror(error)));
+  cannot_be_written(file, error);
 }
 
 std::string absolute_path(const std::string& file) {

@@ -9,6 +9,9 @@
 
 namespace acstudy {
 
+/// @param error  errno. @throws StoreError
+[[noreturn]] void cannot_be_written(const std::filesystem::path& file, int error);
+
 /// Writes a temporary file beside `file`, then puts it in place in one step.
 /// @throws StoreError
 void replace_atomically(const std::filesystem::path& file, std::span<const char> content);

@@ -102,8 +102,7 @@ void append_to_journal(const fs::path& file, std::span<const char> record) {
     close(journal);
   }
   if (error == 0) return;
-  throw StoreError(
-      fmt::format("{}: cannot be written: {}; free space or name another place", file.string(), std::strerror(error)));
+  cannot_be_written(file, error);
 }
 
 void read_journal(const fs::path& file, StoredCases& stored) {

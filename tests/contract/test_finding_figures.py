@@ -23,7 +23,7 @@ class FigureTest(ReportTest):
     def texts(self, kind, *found, **more):
         """The SVG of every drawing of a study, by its stem."""
         drawings = registry.drawings(self.study(kind, *found, **more), {})
-        svgs = {one.stem: look.render(one.figure, one.title)["svg"].decode() for one in drawings}
+        svgs = {one.stem: look.image(one.figure, one.title, "svg").decode() for one in drawings}
         for text in svgs.values():
             ElementTree.fromstring(text)
         return svgs

@@ -25,8 +25,10 @@ from pages import mutants, page
 from reading import names, results
 
 
-def images(study):
-    return look.render(convergence.error_figure(study, registry.styles([study])), study.title)
+def drawn(study, kind="svg"):
+    """The figure of a study as text, or as the bytes of another kind of file."""
+    image = look.image(convergence.error_figure(study, registry.styles([study])), study.title, kind)
+    return image.decode() if kind == "svg" else image
 
 
 class Reading(ReportTest):
@@ -115,7 +117,7 @@ class Page(ReportTest):
         self.assertIn("<strong>no</strong>, expected confirmed", html)
         self.assertIn('<span class="badge bad">below</span>', html)
         self.assertIn('<span class="badge control">stagnates</span>', html)
-        self.assertIn("below, expected confirmed", images(study)["svg"].decode())
+        self.assertIn("below, expected confirmed", drawn(study))
 
     def test_numbers_and_what_is_not_a_number(self):
         broken = series(error_linf=[0.0512, math.nan, math.inf, 0.00321], observed_order=math.nan,
@@ -225,7 +227,7 @@ class Figures(ReportTest):
     def test_an_order_of_the_law_with_a_correction_is_called_that_of_the_limit(self):
         corrected = series(extrapolated_order=0.97, observed_fitted=0.91)
         study = results.read_study(write(self.folder, "fig1", corrected, series(path="delta = h^2")))
-        text = images(study)["svg"].decode()
+        text = drawn(study)
         self.assertIn(">limit order 0.97 [0.95, 1.01], theory 1<", text)
         self.assertIn(">order 0.97 [0.95, 1.01], theory 1<", text)
         html = page.html([study], {})
@@ -234,9 +236,10 @@ class Figures(ReportTest):
 
     def test_the_same_file_gives_the_same_bytes(self):
         path = write(self.folder, "fig1", series(), series(divergence="nonlocal"), series(path="delta = sqrt(h)"))
-        first, second = (images(results.read_study(path)) for _ in range(2))
-        self.assertEqual(first, second)
-        self.assertNotIn("<dc:date>", first["svg"].decode())
+        for kind in ("svg", "png"):
+            first, second = (drawn(results.read_study(path), kind) for _ in range(2))
+            self.assertEqual(first, second)
+        self.assertNotIn("<dc:date>", drawn(results.read_study(path)))
 
     def test_levels_that_cannot_be_drawn_are_counted_in_the_legend(self):
         mixed = series(error_linf=[0.05, math.nan, math.inf, 0.006])
@@ -245,12 +248,12 @@ class Figures(ReportTest):
         short = series(path="delta = h^3", N=(160,))
         none = series(path="delta = h^4", N=())
         study = results.read_study(write(self.folder, "fig1", mixed, lost, zero, short, none))
-        text = images(study)["svg"].decode()
+        text = drawn(study)
         for note in ("2 of 4 levels not finite", "4 of 4 levels not finite", "1 of 4 levels zero"):
             self.assertIn(note, text)
         self.assertIsNotNone(run_times.cost_figure([study], registry.styles([study])))
         alone = results.read_study(write(self.folder, "fig2", lost))
-        self.assertIn("4 of 4 levels not finite", images(alone)["svg"].decode())
+        self.assertIn("4 of 4 levels not finite", drawn(alone))
         self.assertIn("nan", page.html([study], {}))
 
     def test_differences_to_a_finer_run_are_not_called_errors(self):
@@ -261,7 +264,7 @@ class Figures(ReportTest):
         study = results.read_study(path)
         drawing = convergence.drawings(study, registry.styles([study]))[0]
         self.assertIn("differences to a finer run", drawing.caption)
-        self.assertIn("max-norm difference to a finer run", images(study)["svg"].decode())
+        self.assertIn("max-norm difference to a finer run", drawn(study))
         self.assertIn("initial values u0", page.html([study], {}))
         # Nor do they stand beside errors over run time.
         self.assertIsNone(run_times.cost_figure([study], registry.styles([study])))
@@ -279,7 +282,7 @@ class Figures(ReportTest):
         chosen = run_times.cost_curves(studies)
         self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
                          [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
-        text = look.render(run_times.cost_figure(studies, registry.styles(studies)), "cost")["svg"].decode()
+        text = look.image(run_times.cost_figure(studies, registry.styles(studies)), "cost", "svg").decode()
         for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
                      "Model I, nonlocal divergence"):
             self.assertEqual(text.count(f">{name}<"), 1, name)
@@ -329,7 +332,7 @@ class Figures(ReportTest):
 
     def test_a_figure_brings_its_fonts_along_and_keeps_its_text(self):
         study = results.read_study(write(self.folder, "fig1", series()))
-        text = images(study)["svg"].decode()
+        text = drawn(study)
         ElementTree.fromstring(text)
         self.assertEqual(text.count("@font-face{font-family:STIXGeneral"), 2)
         self.assertIn(">order 0.97 [0.95, 1.01], theory 1<", text)

@@ -66,7 +66,7 @@ class StabilityMapTest(ReportTest):
             warnings.filterwarnings("ignore", module="pyparsing|matplotlib.*mathtext", category=DeprecationWarning)
             drawn = registry.drawings(self.study(*found, **more), {})
             for one in drawn:
-                look.render(one.figure, one.title)
+                look.image(one.figure, one.title, "svg")
         return {one.stem.partition(".")[2]: one for one in drawn}
 
 

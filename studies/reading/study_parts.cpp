@@ -111,11 +111,11 @@ namespace {
 std::string integrable_examples() {
   std::vector<std::string> written;
   for (const NamedKernel& known : named_kernels) {
-    if (known.parameter && !known.parameter->integrable.empty()) {
-      written.push_back(fmt::format("{} with {}", known.example(), known.parameter->integrable));
-    } else if (!known.parameter && integrable({std::string(known.name)})) {
-      written.push_back(known.example());
-    }
+    if (!known.parameter && integrable({std::string(known.name)})) written.push_back(known.example());
+  }
+  for (const NamedKernel& known : named_kernels) {
+    if (!known.parameter || known.parameter->integrable.empty()) continue;
+    written.push_back(fmt::format("{} with {}", known.example(), known.parameter->integrable));
   }
   return fmt::format("{}", fmt::join(written, " or "));
 }

@@ -267,6 +267,10 @@ void add_floors(Entries& all) {
                  0.0,
                  {inconclusive, above},
                  "the last pairwise order is 2.74"});
+}
+
+void add_settling(Entries& all) {
+  const auto plateau = [](double p, double floor) { return [=](double v) { return std::pow(v, p) + floor; }; };
   for (const double height : {1e-9, 1e-3, 0.5}) {
     all.push_back({fmt::format("order 2 down to {}", height),
                    levels(refined(std::sqrt(height) * 8.0, 2.0, 8), plateau(2.0, height)),
@@ -373,7 +377,8 @@ void add_failures(Entries& all) {
 
 std::vector<CorpusEntry> verdict_corpus() {
   Entries all;
-  for (const auto add : {add_powers, add_two_terms, add_noise, add_outliers, add_floors, add_failures}) add(all);
+  for (const auto add : {add_powers, add_two_terms, add_noise, add_outliers, add_floors, add_settling, add_failures})
+    add(all);
   return all;
 }
 

@@ -58,6 +58,18 @@ class SideSums {
 
   std::ptrdiff_t outermost(std::ptrdiff_t p) const { return static_cast<std::ptrdiff_t>(outermost_[s * p]); }
 
+  /// The window behind the breakpoint, where the kernel has one.
+  auto outer_window(const Tables& tables, const Boxes<s>& boxes, double* charge) {
+    if constexpr (C::two_pieces) {
+      using Outer = BoxWindow<KernelPiece::outside, Tables::outer_terms, s, C>;
+      const std::ptrdiff_t size = tables.boxes + 4;
+      return Outer(boxes, boxes.lowest(), tables.outer, size, 1.0 / range_.delta, rows_, charge,
+                   memory_.outer.reserve(Outer::memory(tables.outer, size)));
+    } else {
+      return NoWindow{};
+    }
+  }
+
   template <class Finish>
   void by_boxes(const Tables& tables, std::ptrdiff_t start, std::ptrdiff_t stop, Finish&& finish) {
     const std::ptrdiff_t K = tables.boxes, size = K + 4, lowest_source = outermost(start);
@@ -66,15 +78,7 @@ class SideSums {
     const double per_delta = 1.0 / range_.delta;
     Inner inner(boxes, C::two_pieces ? 1 - K / 2 : boxes.lowest(), tables.inner, size, per_delta, rows_, charge,
                 memory_.inner.reserve(Inner::memory(tables.inner, size)));
-    auto outer = [&] {
-      if constexpr (C::two_pieces) {
-        using Outer = BoxWindow<KernelPiece::outside, Tables::outer_terms, s, C>;
-        return Outer(boxes, boxes.lowest(), tables.outer, size, per_delta, rows_, charge,
-                     memory_.outer.reserve(Outer::memory(tables.outer, size)));
-      } else {
-        return NoWindow{};
-      }
-    }();
+    auto outer = outer_window(tables, boxes, charge);
     PairSums<s, C> pair_sums(range_, rows_, outermost_, start);
     Polynomials sum;
     sum.clear();
@@ -128,15 +132,6 @@ class SideSums {
       }
       if (first == end) continue;
 
-      double local[C::over * stride] = {};
-      inner.add_reciprocals(1, local, stride);
-      outer.add_reciprocals(B - outer.end(), local, stride);
-      for (double& coefficient : local) coefficient *= static_cast<double>(K);
-      for (int c = 0; c < C::over; ++c) {
-        for (int n = 0; n < Polynomials::over_terms; ++n) {
-          local[c * stride + n] += sum.over.coefficient[n * Polynomials::over_width + c];
-        }
-      }
       const std::ptrdiff_t near_box = inner.begin() > B - 1 ? inner.begin() : B - 1;
       const Summed summed{boxes.first_cell(outer.begin()),
                           boxes.first_cell(outer.end()),
@@ -144,23 +139,43 @@ class SideSums {
                           boxes.first(near_box),
                           first,
                           charge};
+      double local[C::over * stride] = {};
+      inner.add_reciprocals(1, local, stride);
+      outer.add_reciprocals(B - outer.end(), local, stride);
+      add_polynomials(sum, static_cast<double>(K), local);
       for (std::ptrdiff_t p = first; p < end; p += lane_count) {
         const Vector<s> vector = vector_of<s>(p, end);
         const Lanes t = min((vector.x(order_) - boxes.center(B)) * boxes.per_radius(), spread(1.0));
-        ChannelSums<C> sums;
-#pragma GCC unroll 4
-        for (int c = 0; c < C::over; ++c) {
-          sums.over[c] = polynomial<terms>(local + c * stride, 1, t);
-        }
-        if constexpr (C::plain > 0) {
-          for (int f = 0; f < C::plain; ++f) {
-            sums.plain[f] = polynomial<Polynomials::plain_terms>(sum.plain.coefficient + f, C::stride, t);
-          }
-        }
+        ChannelSums<C> sums = at(t, local, sum);
         pair_sums.add(vector, summed, sums);
         finish(vector, sums);
       }
     }
+  }
+
+  /// From sums over reciprocals per box width to those per horizon, and those of polynomials.
+  ACSTUDY_ALWAYS_INLINE static inline void add_polynomials(const Polynomials& sum, double boxes, double* local) {
+    for (int i = 0; i < C::over * stride; ++i) local[i] *= boxes;
+    for (int c = 0; c < C::over; ++c) {
+      for (int n = 0; n < Polynomials::over_terms; ++n) {
+        local[c * stride + n] += sum.over.coefficient[n * Polynomials::over_width + c];
+      }
+    }
+  }
+
+  /// What the windows give to the particles at the places t of a box, in radii from its center.
+  ACSTUDY_ALWAYS_INLINE static inline ChannelSums<C> at(Lanes t, const double* local, const Polynomials& sum) {
+    ChannelSums<C> sums;
+#pragma GCC unroll 4
+    for (int c = 0; c < C::over; ++c) {
+      sums.over[c] = polynomial<terms>(local + c * stride, 1, t);
+    }
+    if constexpr (C::plain > 0) {
+      for (int f = 0; f < C::plain; ++f) {
+        sums.plain[f] = polynomial<Polynomials::plain_terms>(sum.plain.coefficient + f, C::stride, t);
+      }
+    }
+    return sums;
   }
 
   template <int count>

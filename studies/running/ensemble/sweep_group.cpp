@@ -123,6 +123,44 @@ void SweepGroup::sweep_standing(Team& team, const AndThen& and_then) {
   work_.pairs += standing_pairs_;
 }
 
+namespace {
+
+const double* begin_of(const PeriodicArray& field) { return field.size() > 0 ? field.at(0) : nullptr; }
+
+}  // namespace
+
+UpwindSweep SweepGroup::upwind_sweep(const SweepScheme& local, const SweepScheme& nonlocal) const {
+  return {kernel_->sweep,
+          begin_of(particles_.c_hat),
+          begin_of(particles_.b_prime),
+          begin_of(particles_.c),
+          begin_of(particles_.b),
+          local,
+          nonlocal};
+}
+
+SymmetricSweep SweepGroup::symmetric_sweep(const SweepScheme& local, const SweepScheme& nonlocal) const {
+  const MidpointModes modes = particles_.modes.value_or(MidpointModes{});
+  SymmetricSweep sweep{.kernel = kernel_->sweep,
+                       .mu = mu_,
+                       .x = particles_.x.at(0),
+                       .panels = particles_.panels ? particles_.panels->view() : SweepPanels{},
+                       .half_cosine = {},
+                       .half_sine = {},
+                       .c = modes.c,
+                       .b = modes.b,
+                       .b_prime = begin_of(particles_.b_prime),
+                       .local = local,
+                       .nonlocal = nonlocal};
+  // Modes that there are not have coefficients of zero; what they are read from is of no matter.
+  const int count_of_modes = static_cast<int>(modes.number.size());
+  for (int k = 0; k < most_modes; ++k) {
+    sweep.half_cosine[k] = k < count_of_modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
+    sweep.half_sine[k] = k < count_of_modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
+  }
+  return sweep;
+}
+
 void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
   const std::ptrdiff_t count = std::ssize(particles_.x), reach = particles_.reach(delta_), lanes = sweeps().lanes;
   const bool upwind = model_->vector_form == VectorForm::upwind;
@@ -138,7 +176,6 @@ void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
     swept.rate = values->rate.data();
     return swept;
   };
-  const auto begin_of = [](const PeriodicArray& field) { return field.size() > 0 ? field.at(0) : nullptr; };
   SweepScheme local, nonlocal;
   team.timed(seconds, [&] {
     local = scheme(local_);
@@ -176,34 +213,9 @@ void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
     }
   };
   if (upwind) {
-    const UpwindSweep sweep{kernel_->sweep,
-                            begin_of(particles_.c_hat),
-                            begin_of(particles_.b_prime),
-                            begin_of(particles_.c),
-                            begin_of(particles_.b),
-                            local,
-                            nonlocal};
-    run(sweep, sweeps().upwind, far::far_sweeps().upwind);
+    run(upwind_sweep(local, nonlocal), sweeps().upwind, far::far_sweeps().upwind);
   } else {
-    const MidpointModes modes = particles_.modes.value_or(MidpointModes{});
-    SymmetricSweep sweep{.kernel = kernel_->sweep,
-                         .mu = mu_,
-                         .x = particles_.x.at(0),
-                         .panels = particles_.panels ? particles_.panels->view() : SweepPanels{},
-                         .half_cosine = {},
-                         .half_sine = {},
-                         .c = modes.c,
-                         .b = modes.b,
-                         .b_prime = begin_of(particles_.b_prime),
-                         .local = local,
-                         .nonlocal = nonlocal};
-    // Modes that there are not have coefficients of zero; what they are read from is of no matter.
-    const int count_of_modes = static_cast<int>(modes.number.size());
-    for (int k = 0; k < most_modes; ++k) {
-      sweep.half_cosine[k] = k < count_of_modes ? particles_.mode_cosine[k].at(0) : particles_.x.at(0);
-      sweep.half_sine[k] = k < count_of_modes ? particles_.mode_sine[k].at(0) : particles_.x.at(0);
-    }
-    run(sweep, sweeps().symmetric, far::far_sweeps().symmetric);
+    run(symmetric_sweep(local, nonlocal), sweeps().symmetric, far::far_sweeps().symmetric);
   }
   work_.pairs += pairs.all(std::plus<>());
   ++work_.weight_builds;

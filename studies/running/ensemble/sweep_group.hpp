@@ -59,6 +59,8 @@ class SweepGroup {
 
  private:
   struct Kernel;
+  UpwindSweep upwind_sweep(const SweepScheme& local, const SweepScheme& nonlocal) const;
+  SymmetricSweep symmetric_sweep(const SweepScheme& local, const SweepScheme& nonlocal) const;
   void sweep_moving(Team& team, const AndThen& and_then);
   void sweep_standing(Team& team, const AndThen& and_then);
 

@@ -1,4 +1,4 @@
-"""Includes point one way: a room knows those before it, and none after it."""
+"""Includes and imports point one way: a room knows those before it, and none after it."""
 
 import re
 import unittest
@@ -7,6 +7,8 @@ from tests.program import ROOT
 
 ROOMS = ["solver", "mms", "reports/judging", "studies/models", "studies/cases", "studies/reading", "studies/storing",
          "studies/running", "studies/claims", "studies/kinds", "studies/commands"]
+PYTHON_ROOMS = ["reading", "drawing", "writing", "kinds", "pages"]  # of reports/
+IMPORT = re.compile(rf"^\s*(?:from|import) ({'|'.join(PYTHON_ROOMS)})\b", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -19,6 +21,11 @@ def wrong_ways(file, text):
     here = ROOMS.index(room_of(file))
     return [include for include in INCLUDE.findall(text)
             if (room := room_of(include)) is not None and ROOMS.index(room) > here]
+
+
+def wrong_imports(room, text):
+    """Rooms of reports/ that a Python file of `room` imports although they are later ones."""
+    return [other for other in IMPORT.findall(text) if PYTHON_ROOMS.index(other) > PYTHON_ROOMS.index(room)]
 
 
 class Rooms(unittest.TestCase):
@@ -39,3 +46,15 @@ class Rooms(unittest.TestCase):
         self.assertEqual(wrong_ways("studies/cases/case.hpp", '#include "studies/running/run_case.hpp"\n'),
                          ["studies/running/run_case.hpp"])
         self.assertEqual(wrong_ways("studies/running/run_case.hpp", '#include "studies/cases/case.hpp"\n'), [])
+
+    def test_no_import_of_a_report_leads_to_a_later_room(self):
+        files = [(room, path) for room in PYTHON_ROOMS for path in sorted((ROOT / "reports" / room).rglob("*.py"))]
+        self.assertGreater(len(files), 30)
+        found = {str(path): wrong for room, path in files
+                 if (wrong := wrong_imports(room, path.read_text(encoding="utf-8")))}
+        self.assertEqual(found, {})
+
+    def test_an_import_that_leads_to_a_later_room_is_seen(self):
+        self.assertEqual(wrong_imports("reading", "from kinds import registry\n"), ["kinds"])
+        self.assertEqual(wrong_imports("reading", "    import pages.page\n"), ["pages"])
+        self.assertEqual(wrong_imports("pages", "from kinds import registry\nimport re\n"), [])

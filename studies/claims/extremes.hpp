@@ -15,6 +15,7 @@ struct Extremes {
   std::vector<SchemeChoice> schemes;
   std::int64_t most_particles = 1'000'000;
   std::int64_t most_steps = 1'000'000;
+  std::int64_t levels = 5;  ///< of N, where an order is measured
 };
 
 /// Every row for every scheme that it concerns. The statement of a finding is the extreme, its claim the expectation.

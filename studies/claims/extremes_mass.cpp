@@ -91,12 +91,13 @@ void add_conserved(ExtremeRows& rows, const SchemeChoice& scheme) {
 }
 
 /// A scheme that does not conserve drifts by its consistency error.
-void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme) {
-  const auto measure = [](Finding& row, const MassRun& run) {
+void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t levels) {
+  const auto measure = [levels](Finding& row, const MassRun& run) {
     // Where gaps are random so is the drift: many small arrangements say more of it than few large ones.
     const bool random = run.subject.arrangement == Arrangement::jittered;
-    for (std::int64_t N = random ? 20 : 40; N <= (random ? 320 : 640); N *= 2) {
-      row.points.push_back(drift_of(run, N));
+    const std::int64_t coarsest = random ? 20 : 40;
+    for (std::int64_t level = 0; level < levels; ++level) {
+      row.points.push_back(drift_of(run, coarsest << level));
       row.points.back().upper = std::numeric_limits<double>::infinity();
     }
   };
@@ -145,7 +146,7 @@ void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme) {
 
 void add_rows_of_mass(ExtremeRows& rows, const Extremes& extremes) {
   for (const SchemeChoice& scheme : standing_schemes(extremes)) add_conserved(rows, scheme);
-  for (const SchemeChoice& scheme : extremes.schemes) add_drifting(rows, scheme);
+  for (const SchemeChoice& scheme : extremes.schemes) add_drifting(rows, scheme, extremes.levels);
 }
 
 }  // namespace acstudy

@@ -101,8 +101,9 @@ void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arr
 }
 
 /// L1 errors at T = 1/4, weighted by cell width, along delta = ratio h.
-void refine(Finding& row, const Subject& subject, const Shape& shape, double ratio) {
-  for (const std::int64_t N : {64, 128, 256, 512, 1024}) {
+void refine(Finding& row, const Subject& subject, const Shape& shape, double ratio, std::int64_t levels) {
+  for (std::int64_t level = 0; level < levels; ++level) {
+    const std::int64_t N = std::int64_t{64} << level;
     const double h = 1.0 / static_cast<double>(N), T = 0.25;
     const std::vector<double> x = subject.positions(N).front();
     const State end = run_freely(subject, {x, values_at(x, shape.u_0)}, ratio * h, T,
@@ -120,7 +121,7 @@ void refine(Finding& row, const Subject& subject, const Shape& shape, double rat
   }
 }
 
-void add_orders(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement) {
+void add_orders(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arrangement, std::int64_t levels) {
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
   for (const Shape& shape : shapes) {
     for (const double ratio : {0.4, 3.5}) {
@@ -133,11 +134,11 @@ void add_orders(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arran
           check.coordinates.emplace_back("order", order, order == 1.0 ? "asked for order 1" : "asked for order 1/2");
         return check;
       };
-      rows.add(named(shape.order), [=](Finding& row) { refine(row, subject, shape, ratio); });
+      rows.add(named(shape.order), [=](Finding& row) { refine(row, subject, shape, ratio, levels); });
       if (ratio > 1.0 || arrangement != Arrangement::uniform) continue;
       rows.add_control(
           named(shape.order == 1.0 ? 0.5 : 1.0), "it is not the other one's order",
-          [=](Finding& row) { refine(row, subject, shape, ratio); },
+          [=](Finding& row) { refine(row, subject, shape, ratio, levels); },
           shape.order == 1.0 ? Verdict::above : Verdict::below);
     }
   }
@@ -151,7 +152,7 @@ void add_rows_of_shapes(ExtremeRows& rows, const Extremes& extremes) {
       add_monotone(rows, scheme, arrangement);
     }
     for (const Arrangement arrangement : {Arrangement::uniform, Arrangement::jittered}) {
-      add_orders(rows, scheme, arrangement);
+      add_orders(rows, scheme, arrangement, extremes.levels);
     }
   }
 }

@@ -21,11 +21,12 @@ void read_extremes(const Table& root, Study& study) {
   }
   if (root.find("extremes") != nullptr) {
     const Table table = root.sub_table("extremes");
-    const auto most = [&](std::string_view key, std::int64_t& value, std::int64_t least, std::int64_t largest) {
+    const auto read = [&](std::string_view key, std::int64_t& value, std::int64_t least, std::int64_t largest) {
       if (const toml::node* const node = table.find(key)) value = table.whole(key, *node, least, largest);
     };
-    most("N", extremes.most_particles, 100, 10'000'000);
-    most("steps", extremes.most_steps, 100, 1'000'000'000);
+    read("N", extremes.most_particles, 100, 10'000'000);
+    read("steps", extremes.most_steps, 100, 1'000'000'000);
+    read("levels", extremes.levels, 4, 7);
   }
   study.measurements = extreme_rows(extremes);
 }
@@ -33,6 +34,7 @@ void read_extremes(const Table& root, Study& study) {
 constexpr Key extremes_keys[] = {
     {"N", "whole number", "the largest number of particles", "1000000"},
     {"steps", "whole number", "the largest number of steps", "1000000"},
+    {"levels", "whole number", "levels of N, 4 to 7, where an order is measured", "5"},
 };
 constexpr TableKeys tables[] = {scheme_table, {"[extremes]", extremes_keys, true}};
 

@@ -88,7 +88,7 @@ class ScalarLanes {
 
  private:
   Lanes each(MomentFunction function, Lanes z) const {
-    Lanes result;
+    Lanes result = {};
     for (int i = 0; i < lane_count; ++i) result[i] = function(kernel_, z[i]);
     return result;
   }

@@ -326,11 +326,11 @@ void measure_growth(Finding& finding, const Subject& subject, const Integrator& 
     const double dt = subject.scene->T() / static_cast<double>(n);
     const double step = step_bound(integrator, dt, frozen.rows, constants.C);
     const Eigen::MatrixXd S = step_operator(integrator, frozen.R, dt);
-    Eigen::MatrixXd product = S;
-    for (std::int64_t i = 1; i <= n && max_norm(product) < largest_norm; ++i) {
+    Eigen::MatrixXd power = S;
+    for (std::int64_t i = 1; i <= n && max_norm(power) < largest_norm; ++i) {
       const double t = static_cast<double>(i) * dt;
-      seen(t, max_norm(product), std::pow(step, static_cast<double>(i)) * (1.0 + 1e-9));
-      product = (S * product).eval();
+      seen(t, max_norm(power), std::pow(step, static_cast<double>(i)) * (1.0 + 1e-9));
+      power = product(S, power);
     }
   }
 }

@@ -93,11 +93,13 @@ double max_norm(const Eigen::MatrixXd& matrix) {
   return std::isfinite(matrix.sum()) && norm < largest_norm ? norm : largest_norm;
 }
 
+Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A * B; }
+
 double norm_of_power(Eigen::MatrixXd S, std::int64_t n) {
   Eigen::MatrixXd power = Eigen::MatrixXd::Identity(S.rows(), S.rows());
   for (; n > 0; n /= 2) {
-    if (n % 2 == 1) power = (S * power).eval();
-    if (n > 1) S = (S * S).eval();
+    if (n % 2 == 1) power = product(S, power);
+    if (n > 1) S = product(S, S);
   }
   return max_norm(power);
 }

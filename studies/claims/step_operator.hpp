@@ -56,6 +56,9 @@ inline constexpr double largest_norm = 1e300;
 /// max |S^n|, by repeated squaring.
 double norm_of_power(Eigen::MatrixXd S, std::int64_t n);
 
+/// The product of two square matrices.
+Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
 /// Largest |r(dt lambda)| over the eigenvalues of R.
 double spectral_radius(const Integrator& integrator, const Eigen::VectorXcd& eigenvalues, double dt);
 

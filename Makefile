@@ -32,8 +32,7 @@ help:  ## lists the targets
 # On a fresh machine the packages that draw are installed while the C++ compiles: half a minute less.
 # A verdict that departs (1) or a run that failed (3) is to be seen in the report too.
 studies:  ## runs every study and draws every figure, from nothing
-	@echo "acstudy: from nothing this takes some 10 minutes on two processors and 1 GB of disk, most of it packages;" \
-		"the next time what has changed since"
+	@echo "acstudy: from nothing some 10 minutes on two processors, and 1 GB of disk"
 	@$(stage) installed scripts/setup.sh build
 	@$(stage) built $(MAKE) --no-print-directory -j 2 compiled drawable
 	@status=0; $(stage) run $(acstudy) run studies/*.toml --out "$(OUT)" --jobs $(JOBS) || status=$$?; \
@@ -59,7 +58,7 @@ mutants:  ## tests the tests: each mistake planted in a copy of the sources has 
 		[ $$status -ne 0 ] || status=4; fi; exit $$status
 
 bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some 6 minutes)
-	@echo "acstudy: some 6 minutes; a machine that does something else meanwhile is no machine to time on"
+	@echo "acstudy: some 6 minutes, in which the machine should do nothing else"
 	@$(acstudy) bench $(bench_studies) --out "$(OUT)/bench" --fresh
 	@$(acstudy) bench studies/bench/scaling-threads.toml --threads $(THREADS) --out "$(OUT)/bench-threads" --fresh
 	$(setup) report

@@ -8,7 +8,9 @@ Exit codes: 0 done; 2 no bench, or not one.
 """
 
 from pathlib import Path
+import shutil
 import sys
+import textwrap
 
 from kinds.bench import tables
 from reading import bench_results, results
@@ -31,7 +33,7 @@ def main(arguments):
     for title, header, rows, note in tables.tables(benches):
         print(f"**{title}**\n\n{markdown(header, rows)}\n" + (f"{note}\n" if note else ""))
     for line in tables.left_out(benches):
-        print(f"bench_tables.py: {line}", file=sys.stderr)
+        _say(line)
     print(measured_by(benches))
     return 0
 
@@ -57,8 +59,15 @@ def markdown(header, rows):
 
 
 def _fail(message):
-    print(f"bench_tables.py: {message}", file=sys.stderr)
+    _say(message)
     return 2
+
+
+def _say(message):
+    line = f"bench_tables.py: {message}"
+    if sys.stderr.isatty():
+        line = textwrap.fill(line, shutil.get_terminal_size().columns, subsequent_indent="    ")
+    print(line, file=sys.stderr)
 
 
 if __name__ == "__main__":

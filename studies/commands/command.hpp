@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,6 +17,13 @@ namespace acstudy {
 /// Where the value of an option goes; what stands there before is its default. A list of numbers is split at commas.
 using Target = std::variant<bool*, int*, std::int64_t*, std::size_t*, double*, std::string*, std::optional<double>*,
                             std::optional<std::string>*, std::vector<std::string>*, std::vector<int>*>;
+
+/// Whether a target takes several values.
+template <class T>
+constexpr bool is_list = requires(T value) {
+  value.push_back({});
+}
+&&!std::is_same_v<T, std::string>;
 
 struct Option {
   std::string name;  ///< "--jobs"; without dashes that of a positional argument

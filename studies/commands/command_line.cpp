@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 
 #include "build_info.hpp"
 #include "mms/expression.hpp"
@@ -44,12 +43,6 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
           },
           ""};
 }
-
-template <class T>
-constexpr bool is_list = requires(T value) {
-  value.push_back({});
-}
-&&!std::is_same_v<T, std::string>;
 
 void add_option(CLI::App& app, const Option& option) {
   CLI::Option* const added = std::visit(

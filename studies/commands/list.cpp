@@ -33,8 +33,10 @@ std::string list_text(const std::string& what) {
   if (what.empty() || what == "integrators") {
     heading("integrators");
     for (const Integrator& integrator : integrators) {
-      out += fmt::format("{}{:<35} order {}, {} stage(s){}\n", indent, fmt::format("\"{}\"", integrator.name),
-                         integrator.order, integrator.stage_count(), integrator.implicit() ? ", implicit" : "");
+      const std::size_t stages = integrator.stage_count();
+      out +=
+          fmt::format("{}{:<35} order {}, {} {}{}\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order,
+                      stages, stages == 1 ? "stage" : "stages", integrator.implicit() ? ", implicit" : "");
     }
   }
   if (what.empty() || what == "scenes") {

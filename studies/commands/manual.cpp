@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <type_traits>
-
 #include "build_info.hpp"
 #include "studies/commands/terminal.hpp"
 
@@ -19,12 +17,6 @@ constexpr std::pair<int, const char*> exit_codes[] = {
     {0, "done, and all as expected"}, {1, "a verdict departs"},     {2, "bad input, nothing run or written"},
     {3, "a run failed numerically"},  {4, "the machine failed it"}, {130, "interrupted"},
 };
-
-template <class T>
-constexpr bool is_list = requires(T value) {
-  value.push_back({});
-}
-&&!std::is_same_v<T, std::string>;
 
 bool takes_several(const Option& option) {
   return std::visit([]<class T>(T*) { return is_list<T>; }, option.target);

@@ -18,6 +18,13 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+std::string in_one_line(const std::string& text) {
+  std::string line;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 Row row(const std::string& study, bool passes) {
   return {.study = study,
           .name = "Model II, nonlocal divergence, power(0.5), delta = 2 sqrt(h), backward-euler, step h",
@@ -53,15 +60,16 @@ TEST_CASE("a summary has 25 lines at most for any number of studies and departur
         const std::string text = summary_text(summary_of(studies, departing), width, 25);
         CAPTURE(studies, departing, width, text);
         const auto lines = lines_of(text);
+        const std::string words = in_one_line(text);
         CHECK(lines.size() <= 25);
         CHECK(std::all_of(lines.begin(), lines.end(), [&](const auto& line) { return width_of(line) <= width; }));
-        CHECK((text.find("all as expected") != std::string::npos) == (departing == 0));
-        CHECK((text.find("DEPART") != std::string::npos) == (departing > 0));
-        const bool hidden = text.find(" more; all of them: acstudy check reports/out/") != std::string::npos;
+        CHECK((words.find("all as expected") != std::string::npos) == (departing == 0));
+        CHECK((words.find("DEPART") != std::string::npos) == (departing > 0));
+        const bool hidden = words.find(" more; all of them: acstudy check reports/out/") != std::string::npos;
         const bool all_shown = std::size_t(std::count_if(lines.begin(), lines.end(), [](const auto& line) {
                                  return line.starts_with("DEPART");
                                })) == studies * departing;
-        if (width >= 80) CHECK(hidden == !all_shown);
+        CHECK(hidden == !all_shown);
       }
     }
   }

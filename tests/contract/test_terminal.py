@@ -125,7 +125,7 @@ class QuietAndVerbose(ProgramTest):
         said = self.run_study(WRONG, expect=1).stdout
         self.assertRegex(said, r"\ADEPART  tiny: Model I, local divergence, inverse, delta = 4h\n"
                                r" {8}\d\.\d\d \[.*\]  confirmed, expected above: ")
-        self.assertIn("1 finding of 1 study, 1 depart: 1 confirmed\n", said)
+        self.assertIn("1 finding of 1 study, 1 departs: 1 confirmed\n", said)
 
     def test_verbose_is_a_table_of_every_series(self):
         lines = self.run_study(WIDE, "-v").stdout.splitlines()

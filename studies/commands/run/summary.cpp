@@ -57,10 +57,13 @@ std::string verdicts_text(const RunSummary& summary, std::size_t width) {
     all += count;
   }
   std::stable_sort(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (all == 0) return "";  // interrupted before the first
   std::vector<std::string> said;
   for (const auto& [count, verdict] : counts) said.push_back(fmt::format("{} {}", count, verdict));
   const std::size_t departing = departing_in(summary.rows);
-  const std::string judgement = departing > 0 ? fmt::format("{} depart", departing) : "all as expected";
+  const std::string judgement = departing == 0   ? "all as expected"
+                                : departing == 1 ? "1 departs"
+                                                 : fmt::format("{} depart", departing);
   std::string text =
       wrapped(fmt::format("{} of {}, {}: {}", counted(all, "finding", "findings"),
                           counted(summary.studies, "study", "studies"), judgement, fmt::join(said, ", ")),

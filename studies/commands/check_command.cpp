@@ -47,8 +47,8 @@ Command check_command() {
            {.name = "--github",
             .target = &request->github,
             .help = "print an annotation for GitHub Actions per gate that departs"},
-           verbose_option(&request->verbose, "print a line per gate"),
-           quiet_option(&request->quiet, "print only what departs")},
+           quiet_option(&request->quiet, "print only what departs"),
+           verbose_option(&request->verbose, "print a line per gate")},
           [request](const std::string&) { return check(*request); },
           {{"check reports/out/*.json", "judges all results again; exit code 1 if a verdict departs"},
            {"check -v reports/out/fig2.json --junit gates.xml", "a line per gate of one study, and a report for CI"}}};

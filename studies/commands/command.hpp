@@ -50,7 +50,7 @@ struct Command {
   std::vector<Example> examples;                            ///< two at least
 };
 
-/// -v and --quiet, which mean the same wherever they stand; the second is to be listed behind the first.
+/// -v and --quiet, which mean the same wherever they stand; the first is to be listed behind the second.
 Option verbose_option(bool* target, const std::string& help);
 Option quiet_option(bool* target, const std::string& help);
 

@@ -140,11 +140,11 @@ int run(const Command& command, int argc, const char* const* argv) {
 }  // namespace
 
 Option verbose_option(bool* target, const std::string& help) {
-  return {.name = "-v,--verbose", .target = target, .help = help};
+  return {.name = "-v,--verbose", .target = target, .help = help, .excludes = {"--quiet"}};
 }
 
 Option quiet_option(bool* target, const std::string& help) {
-  return {.name = "-q,--quiet", .target = target, .help = help, .excludes = {"--verbose"}};
+  return {.name = "-q,--quiet", .target = target, .help = help};
 }
 
 int run_command_line(const std::vector<Command>& commands, int argc, const char* const* argv) {

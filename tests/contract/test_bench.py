@@ -98,6 +98,7 @@ class Bench(BenchTest):
         self.bench(STUDY, "--least-seconds", "0")
         first = self.stored()
         self.assertIn("3 cases, 0 timed runs", self.bench(STUDY, "--least-seconds", "0").stdout)
+        self.assertEqual(self.bench(STUDY, "--least-seconds", "0", "--quiet").stdout, "")
         self.assertEqual(self.stored()["cases"], first["cases"])
         self.assertIn("3 cases, 6 timed runs", self.bench(STUDY, "--least-seconds", "0", "--runs", "7").stdout)
         for now, before in zip(self.stored()["cases"], first["cases"], strict=True):

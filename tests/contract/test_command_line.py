@@ -31,7 +31,7 @@ class Help(ProgramTest):
     def test_defaults_and_choices_are_named(self):
         said = re.sub(r"\s+", " ", self.acstudy("run", "--help").stdout)
         for words in ("--out DIR", "(reports/out)", "vector: ", "readable: ", "(vector)", "from 1 to 1024", "-v, --verbose",
-                      "-q, --quiet", "not with --verbose"):
+                      "-q, --quiet", "not with --quiet"):
             self.assertIn(words, said)
         said = re.sub(r"\s+", " ", self.acstudy("fit", "--help").stdout)
         for words in ("--dimension D", "goes with --count", "not with --error, --weight", "(h)"):

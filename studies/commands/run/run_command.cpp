@@ -88,8 +88,8 @@ Command run_command() {
             .help = "vector: several particles at a time, weights never stored; readable: its reference",
             .type = "NAME",
             .one_of = {"vector", "readable"}},
-           verbose_option(&a->verbose, "print a table of every series as well"),
-           quiet_option(&a->options.quiet, "print only what departs, and no progress")},
+           quiet_option(&a->options.quiet, "print only what departs, and no progress"),
+           verbose_option(&a->verbose, "print a table of every series as well")},
           [a](const std::string& command_line) {
             a->options.out = a->out;
             a->options.readable = a->form == "readable";

@@ -157,10 +157,11 @@ bool write_example(toml::table& document, MissingKey& missing) {
     }
   }
   missing.example = written;
+  bool new_key = false;
   for (auto&& [key, value] : example) {
-    value.visit([&, &name = key](const auto& node) { table->insert(name, node); });
+    value.visit([&, &name = key](const auto& node) { new_key = table->insert(name, node).second || new_key; });
   }
-  return !example.empty();
+  return new_key;
 }
 
 /// All keys that are missing, in one message.

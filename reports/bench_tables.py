@@ -3,11 +3,14 @@
 
 OUT_DIR is the folder of the results, with the benches in OUT_DIR/bench*/bench.json. The tables: seconds to reach an
 error, the law of cost, the prices of work, threads. Where the time goes is on the page of the report.
+What is missing of them, as on a disturbed machine, is said on stderr.
 Exit codes: 0 done; 2 no bench, or not one.
 """
 
 from pathlib import Path
+import shutil
 import sys
+import textwrap
 
 from kinds.bench import tables
 from reading import bench_results, results
@@ -29,6 +32,8 @@ def main(arguments):
         return _fail(f"{folder}: no bench ({bench_results.PLACES}) in it; run make bench first, or name the folder")
     for title, header, rows, note in tables.tables(benches):
         print(f"**{title}**\n\n{markdown(header, rows)}\n" + (f"{note}\n" if note else ""))
+    for line in tables.left_out(benches):
+        _say(line)
     print(measured_by(benches))
     return 0
 
@@ -54,8 +59,15 @@ def markdown(header, rows):
 
 
 def _fail(message):
-    print(f"bench_tables.py: {message}", file=sys.stderr)
+    _say(message)
     return 2
+
+
+def _say(message):
+    line = f"bench_tables.py: {message}"
+    if sys.stderr.isatty():
+        line = textwrap.fill(line, shutil.get_terminal_size().columns, subsequent_indent="    ")
+    print(line, file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -30,9 +30,14 @@ std::string Case::key() const {
 }
 
 double Case::estimated_work() const {
-  constexpr double of_particle = 10.0;
-  return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stage_count()) *
-         (scheme.model->pair_cost * std::max(1.0, delta / h) + of_particle);
+  constexpr double of_particle = 10.0, of_step = 2000.0;
+  const bool by_rows = step.bound == StepRule::Bound::rows;
+  // The rows allow about the steps of particles that no pair of which is close.
+  const double taken = std::max(1.0, static_cast<double>(steps) * (by_rows ? start.smallest_gap : 1.0));
+  const double of_stage =
+      of_step + static_cast<double>(N) * (scheme.model->pair_cost * std::max(1.0, delta / h) + of_particle);
+  const bool one_by_one = readable || by_rows || integrator->implicit();
+  return (one_by_one ? 10.0 : 1.0) * taken * static_cast<double>(integrator->stage_count()) * of_stage;
 }
 
 double Case::lemma_bound(double h_min) const { return h_min / scheme.model->step_lemma.speed(*scene, mu); }

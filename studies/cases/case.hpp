@@ -57,7 +57,8 @@ struct Case {
 
   /// Text that is equal for two cases exactly if all their inputs are equal.
   std::string key() const;
-  /// Rough number of pair interactions, to start the longest case first.
+  /// Roughly what the run takes, in pair interactions of the vector form: to start the longest case first, and to say
+  /// how long the rest takes.
   double estimated_work() const;
   /// The largest forward Euler step that the lemma of the model allows at a smallest gap.
   double lemma_bound(double h_min) const;

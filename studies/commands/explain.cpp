@@ -154,7 +154,7 @@ std::string explain(const Study& study) {
     for (const Case& c : series.cases) {
       const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
       out +=
-          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>6.3f}{}{}\n", c.N, c.h, c.delta, c.dt,
+          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>#6.3g}{}{}\n", c.N, c.h, c.delta, c.dt,
                       c.steps, series.scheme.model->sides() * static_cast<std::int64_t>(per_side), c.cfl(),
                       c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "",
                       series.against_reference && &c == &series.cases.back() ? "  reference" : "");

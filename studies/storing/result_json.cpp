@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -245,6 +246,10 @@ std::string json_text(const StudyResult& result, const Provenance& provenance) {
 
 ResultRecord read_json(const std::string& file) {
   constexpr const char* remedy = "name a .json file that acstudy run has written";
+  if (std::error_code none; std::filesystem::is_directory(file, none)) {
+    throw InputError(fmt::format("{}: a folder; name its result files: {}", file,
+                                 (std::filesystem::path(file) / "*.json").string()));
+  }
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) throw InputError(fmt::format("{}: cannot read the result file; {}", file, remedy));

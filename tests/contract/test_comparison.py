@@ -54,6 +54,7 @@ class Comparison(unittest.TestCase):
     def test_numpy_has_the_same_errors_in_every_scheme_kernel_and_path(self):
         done = self.compare("--programs", "numpy-views", "numpy-pairs", "acstudy-readable")
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stderr.startswith("compare.py: some 45 s for three rounds"), done.stderr)
         found = self.stored()
         self.assertEqual((len(found["cases"]), found["wrong"]), (24, []))
         for name in ("numpy-views", "numpy-pairs"):

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include "studies/commands/output.hpp"
 #include "studies/commands/say.hpp"
 #include "studies/commands/stop.hpp"
+#include "studies/commands/terminal.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/running/run_case.hpp"
 #include "studies/storing/bench_store.hpp"
@@ -25,6 +25,7 @@ struct BenchRequest {
   std::filesystem::path out = "reports/out/bench";
   BenchOptions options;
   bool fresh = false;  ///< drop the samples of an earlier bench
+  bool quiet = false;  ///< show no progress and no count
   std::string command;
 };
 
@@ -60,10 +61,10 @@ BenchResult bench_studies(const std::vector<Study>& studies, const BenchRequest&
 
   const auto start = std::chrono::steady_clock::now();
   auto written = start;
-  const bool on_terminal = isatty(STDERR_FILENO) != 0;
+  const bool shown = on_terminal(Stream::error) && !request.quiet;
   const auto run = [&](const Case& c, int threads) { return run_cases({&plans.at(&c), 1}, stop, 1, threads).front(); };
   const BenchHooks hooks = {.run = run, .after_round = [&](std::int64_t round, std::size_t open) {
-                              if (on_terminal) show_progress(round, open, bench.cases.size());
+                              if (shown) show_progress(round, open, bench.cases.size());
                               if (seconds_since(written) < 1.0) return;
                               write(false);
                               written = std::chrono::steady_clock::now();
@@ -81,8 +82,10 @@ int bench(const std::vector<std::string>& files, const BenchRequest& request) {
   prepare_folder(request.out);
   const std::atomic<bool>& stop = stop_on_signals();
   const BenchResult result = bench_studies(studies, request, stop);
-  fmt::print("{} cases, {} timed runs in {:.1f} s; samples in {}\n", result.cases, result.outcome.runs, result.seconds,
-             request.out.string());
+  if (!request.quiet) {
+    fmt::print("{} cases, {} timed runs in {:.1f} s; samples in {}\n", result.cases, result.outcome.runs,
+               result.seconds, request.out.string());
+  }
   for (const std::string& what : result.outcome.departs) say("two runs of one case differ: " + what);
   for (const std::string& what : result.outcome.failed) say("not timed, it has no solution: " + what);
   if (stop) {
@@ -121,12 +124,15 @@ Command bench_command() {
             .help = "threads that share the work of a case; several numbers, as in 1,2, time each case with each",
             .type = "N,...",
             .range = {{1, 1024}}},
-           {.name = "--fresh", .target = &a->request.fresh, .help = "drop the samples of an earlier bench in DIR"}},
+           {.name = "--fresh", .target = &a->request.fresh, .help = "drop the samples of an earlier bench in DIR"},
+           quiet_option(&a->request.quiet, "print neither progress nor counts")},
           [a](const std::string& command_line) {
             a->request.out = a->out;
             a->request.command = command_line;
             return bench(a->files, a->request);
-          }};
+          },
+          {{"bench studies/fig1.toml", "times the cases of a study; samples in reports/out/bench"},
+           {"bench studies/fig5.toml --threads 1,2 --out out", "each case with one thread and with two"}}};
 }
 
 }  // namespace acstudy

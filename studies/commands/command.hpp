@@ -37,6 +37,7 @@ struct Command {
 
 Command run_command();
 Command check_command();
+Command compare_command();
 Command fit_command();
 Command bench_command();
 Command explain_command();

@@ -78,7 +78,7 @@ class Compare(ProgramTest):
                     _, said = self.compare(old=f"old/tiny.{old}", new=f"old/tiny.{new}", expect=0)
                     self.assertTrue(said["identical"], json.dumps(said)[:2000])
                     numbers = said["numbers"]
-                    self.assertGreater(numbers["errors"]["all"] + numbers["values"]["all"], 3)
+                    self.assertGreater(numbers["errors"]["all"] + numbers["values"]["all"], 1)
 
     def test_a_verdict_that_worsened(self):
         def worse(result):
@@ -295,7 +295,7 @@ class Compare(ProgramTest):
             with self.subTest(name):
                 done = self.acstudy("compare", "old", "hostile.json")
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
-                self.assertTrue(done.stderr.startswith("acstudy: hostile.json: not "), done.stderr)
+                self.assertRegex(done.stderr, r"\Aacstudy: hostile.json: (not|cannot read) ")
 
     def test_two_findings_or_studies_that_cannot_be_told_apart(self):
         self.new(lambda result: result["series"].append(result["series"][0]))

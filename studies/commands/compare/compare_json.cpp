@@ -36,7 +36,7 @@ json tally_json(const Tally& tally) {
   return {{"all", tally.all},
           {"equal", tally.equal},
           {"lowest_ratio", tally.low},
-          {"highest_ratio", tally.high},
+          {"highest_ratio", tally.high > 0.0 ? json(tally.high) : json(nullptr)},
           {"without_ratio", tally.without_ratio}};
 }
 

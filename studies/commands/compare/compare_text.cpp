@@ -24,6 +24,8 @@ std::string ratio_text(double ratio) {
 }
 
 std::string range_text(const Tally& tally) {
+  if (!tally.differs()) return ratio_text(1.0);
+  if (tally.low > tally.high) return "none";
   std::string text = ratio_text(tally.low);
   if (tally.low != tally.high) text += " to " + ratio_text(tally.high);
   return tally.without_ratio ? text + ", or none" : text;
@@ -33,19 +35,21 @@ std::string sum_text(const Sum& sum) {
   return sum.before == 0.0 && sum.after == 0.0 ? "-" : ratio_text(ratio(sum.before, sum.after));
 }
 
-/// What the runs and the values of a finding or a study have become: "errors 0.98 to 1.32 of OLD's, pairs 1".
+std::string single_text(const Numbers& numbers) {
+  return fmt::format("{} cases or points only in OLD, {} only in NEW", numbers.gone, numbers.added);
+}
+
+/// What the runs and the values of a finding have become: "NEW/OLD: errors 0.98 to 1.32, pairs 1, seconds 1.1".
 std::string numbers_text(const Numbers& numbers) {
   std::vector<std::string> parts;
-  const auto ratios = [&](const char* of, const Tally& tally) {
-    if (tally.all > 0) parts.push_back(fmt::format("{} {}", of, range_text(tally)));
+  const auto say = [&](const char* of, const Tally& tally) {
+    if (tally.all > 0) parts.push_back(fmt::format("{} {}", of, tally.differs() ? range_text(tally) : "equal"));
   };
-  ratios("errors", numbers.errors);
-  ratios("values", numbers.values);
+  say("errors", numbers.errors);
+  say("values", numbers.values);
   if (numbers.pairs.after > 0.0) parts.push_back("pairs " + sum_text(numbers.pairs));
   if (numbers.seconds.after > 0.0) parts.push_back("seconds " + sum_text(numbers.seconds));
-  if (numbers.gone + numbers.added > 0) {
-    parts.push_back(fmt::format("{} levels only in OLD, {} only in NEW", numbers.gone, numbers.added));
-  }
+  if (numbers.gone + numbers.added > 0) parts.push_back(single_text(numbers));
   return parts.empty() ? "no numbers in both" : fmt::format("NEW/OLD: {}", fmt::join(parts, ", "));
 }
 
@@ -60,26 +64,34 @@ std::string side_text(const Finding& finding) {
   return text + (std::isnan(finding.judgement.order) ? "  " : ", ") + "expected " + expected_text(finding);
 }
 
-using Block = std::vector<std::string>;
+/// The verdicts of both sets on a finding, one below the other, under its name and what is said of it.
+Block sides(const FindingComparison& one, const std::string& said) {
+  Block lines = folded(name_text(one) + said, "  ", "      ");
+  append(lines, folded("OLD  " + side_text(one.before->finding), "    ", "         "));
+  append(lines, folded("NEW  " + side_text(one.after->finding), "    ", "         "));
+  return lines;
+}
 
-Block worsened_block(const FindingComparison& one) {
-  Block lines = folded(name_text(one), "  ", "      ");
-  const Finding &before = one.before->finding, &after = one.after->finding;
-  append(lines, folded("OLD  " + side_text(before), "    ", "         "));
-  append(lines, folded("NEW  " + side_text(after), "    ", "         "));
+/// @param all  the whole reason, however long it is
+Block worsened_block(const FindingComparison& one, bool all) {
+  constexpr std::size_t most = 2;
+  Block lines = sides(one, "");
   append(lines, folded(numbers_text(one.numbers), "    ", "    "));
-  append(lines, folded(one.why, "    ", "    "));
+  Block why = folded(one.why, "    ", "    ");
+  if (!all && why.size() > most) {
+    why.resize(most);
+    why.back() += " ...";
+  }
+  append(lines, why);
   return lines;
 }
 
 Block changed_block(const FindingComparison& one) {
-  Block lines = folded(fmt::format("{}: {}", name_text(one), name_of(one.change)), "  ", "      ");
-  const Finding &before = one.before->finding, &after = one.after->finding;
-  append(lines, folded("OLD  " + side_text(before), "    ", "         "));
-  append(lines, folded("NEW  " + side_text(after), "    ", "         "));
+  Block lines = sides(one, fmt::format(": {}", name_of(one.change)));
   if (one.change == Change::expected) {
-    append(lines, folded(fmt::format("expected: OLD {}, NEW {}", expected_text(before), expected_text(after)), "    ",
-                         "    "));
+    append(lines, folded(fmt::format("expected: OLD {}, NEW {}", expected_text(one.before->finding),
+                                     expected_text(one.after->finding)),
+                         "    ", "    "));
   }
   return lines;
 }
@@ -91,26 +103,27 @@ Block moved_block(const FindingComparison& one) {
   std::string text = was == is ? fmt::format("{}, moved by {:.1g}", was, after.order - before.order)
                                : fmt::format("OLD {}, NEW {}", was, is);
   if (before.low <= before.high && !before.contains(after.order)) text += ", outside OLD's interval";
-  append(lines, folded(fmt::format("{}; {}", text, numbers_text(one.numbers)), "    ", "    "));
+  append(lines, folded(fmt::format("{}; errors {}", text, range_text(one.numbers.errors)), "    ", "    "));
   return lines;
 }
 
-void print_to(std::string& text, const Block& lines) {
-  for (const std::string& line : lines) text += line + "\n";
-}
+struct Section {
+  std::string heading;
+  std::vector<Block> blocks;
+};
 
-/// A section of a text: a heading, and as many blocks as fit into a number of lines, one at least.
-std::string section(const std::string& heading, const std::vector<Block>& blocks, std::size_t most, bool all) {
-  if (blocks.empty()) return "";
-  std::string text = "\n" + heading + "\n";
+/// A heading and as many blocks as fit into a number of lines, one at least.
+std::string section_text(const Section& section, std::size_t most) {
+  std::string text = "\n" + section.heading + "\n";
   std::size_t lines = 0, shown = 0;
-  for (const Block& block : blocks) {
-    if (!all && shown > 0 && lines + block.size() > most) break;
+  for (const Block& block : section.blocks) {
+    if (shown > 0 && lines + block.size() > most) break;
     print_to(text, block);
     lines += block.size();
     ++shown;
   }
-  if (shown < blocks.size()) text += fmt::format("  and {} more; -v shows all\n", blocks.size() - shown);
+  if (shown < section.blocks.size())
+    text += fmt::format("  and {} more; -v shows all\n", section.blocks.size() - shown);
   return text;
 }
 
@@ -127,14 +140,22 @@ std::vector<const FindingComparison*> changed(const Comparison& comparison, std:
   return all;
 }
 
-std::vector<Block> worsened_blocks(const Comparison& comparison) {
+/// How far the numbers of a finding or a study are apart.
+double distance(const Numbers& numbers) { return std::max(numbers.errors.distance(), numbers.values.distance()); }
+
+/// Studies as a whole first, then findings whose errors have changed most.
+std::vector<Block> worsened_blocks(const Comparison& comparison, bool all) {
   std::vector<Block> blocks;
   for (const StudyComparison& study : comparison.studies) {
     if (!study.worsened.empty()) {
       blocks.push_back(folded(fmt::format("{}: {}", study.any().study, study.worsened), "  ", "      "));
     }
   }
-  for (const FindingComparison* one : changed(comparison, {Change::worsened})) blocks.push_back(worsened_block(*one));
+  std::vector<const FindingComparison*> worsened = changed(comparison, {Change::worsened});
+  std::stable_sort(worsened.begin(), worsened.end(), [](const auto* one, const auto* other) {
+    return distance(one->numbers) > distance(other->numbers);
+  });
+  for (const FindingComparison* one : worsened) blocks.push_back(worsened_block(*one, all));
   return blocks;
 }
 
@@ -187,11 +208,9 @@ std::vector<Block> number_blocks(const Comparison& comparison) {
   for (const StudyComparison& study : comparison.studies) {
     if (study.both() && study.numbers.differ()) studies.push_back(&study);
   }
-  const auto distance = [](const StudyComparison* study) {
-    return std::max(study->numbers.errors.distance(), study->numbers.values.distance());
-  };
-  std::stable_sort(studies.begin(), studies.end(),
-                   [&](const auto* one, const auto* other) { return distance(one) > distance(other); });
+  std::stable_sort(studies.begin(), studies.end(), [](const auto* one, const auto* other) {
+    return distance(one->numbers) > distance(other->numbers);
+  });
   std::vector<Block> blocks;
   for (const StudyComparison* study : studies) {
     Tally tally = study->numbers.errors;
@@ -206,6 +225,7 @@ std::vector<Block> number_blocks(const Comparison& comparison) {
     block.push_back(fmt::format("  {:<{}}  {:>11}  {:<22} {:>6} {:>7}", name, room,
                                 fmt::format("{}/{}", tally.equal, tally.all), range_text(tally),
                                 sum_text(study->numbers.pairs), sum_text(study->numbers.seconds)));
+    if (study->numbers.gone + study->numbers.added > 0) block.push_back("    " + single_text(study->numbers));
   }
   return blocks;
 }
@@ -229,66 +249,23 @@ std::string counts_text(const Comparison& comparison) {
   return text;
 }
 
-std::string set_text(const char* which, const ResultSet& set) {
-  std::string first, last;
-  for (const ResultRecord& study : set.studies) {
-    for (const auto& [name, value] : study.provenance) {
-      if (name != "created") continue;
-      first = first.empty() ? value : std::min(first, value);
-      last = std::max(last, value);
-    }
-  }
-  const std::string when = first.empty()   ? ""
-                           : first == last ? " of " + first
-                                           : fmt::format(" of {} to {}", first, last);
-  return fmt::format("{}  {}: {} {}{}", which, set.path, set.studies.size(),
-                     set.studies.size() == 1 ? "study" : "studies", when);
-}
-
-std::string values_text(const std::set<std::string>& values) {
-  return values.size() == 1 ? *values.begin() : fmt::format("{} different: {}", values.size(), fmt::join(values, ", "));
-}
-
-std::string origin_text(const Comparison& comparison) {
-  Block lines = folded(set_text("OLD", *comparison.before), "", "     ");
-  append(lines, folded(set_text("NEW", *comparison.after), "", "     "));
-  std::vector<std::string> alike, causes;
-  for (const Origin& one : origins(comparison)) {
-    if (!one.differs()) {
-      alike.push_back(one.name == "machine" || one.name == "compiler" || one.name == "version" || one.name == "flags"
-                          ? fmt::format("{} {}", one.name, *one.before.begin())
-                          : one.name);
-      continue;
-    }
-    if (one.decides) causes.push_back(one.name);
-    append(lines, folded(fmt::format("{}: OLD {}, NEW {}", one.name, values_text(one.before), values_text(one.after)),
-                         "     ", "       "));
-  }
-  if (!alike.empty()) append(lines, folded(fmt::format("the same: {}", fmt::join(alike, "; ")), "     ", "       "));
-  if (comparison.numbers.differ()) {
-    const std::string said =
-        causes.empty() ? "nothing that decides a run differs between the two, and runs are deterministic: the study "
-                         "files differ, or "
-                         "the sources that measure and judge, or a file was changed"
-                       : fmt::format("runs are deterministic: numbers differ because of {}, or of the study files",
-                                     fmt::join(causes, ", "));
-    append(lines, folded(said, "     ", "     "));
-  }
-  std::string text = "\n";
-  print_to(text, lines);
-  return text;
-}
-
 }  // namespace
 
 std::string comparison_text(const Comparison& comparison, bool all) {
-  const std::string heading = fmt::format("  {:<26}  {:>11}  {:<22} {:>6} {:>7}", "studies whose numbers differ",
-                                          "equal", "NEW/OLD", "pairs", "seconds");
-  return counts_text(comparison) + section("worsened", worsened_blocks(comparison), 14, all) +
-         section("changed otherwise", changed_blocks(comparison), 6, all) +
-         section("in one only", single_blocks(comparison), 3, all) +
-         section("orders that moved, the verdict being the same", moved_blocks(comparison), 4, all) +
-         section(heading.substr(2), number_blocks(comparison), 5, all) + origin_text(comparison);
+  const std::string columns = fmt::format("{:<28}  {:>11}  {:<22} {:>6} {:>7}", "studies whose numbers differ", "equal",
+                                          "NEW/OLD", "pairs", "seconds");
+  std::vector<Section> sections = {{"worsened", worsened_blocks(comparison, all)},
+                                   {"changed otherwise", changed_blocks(comparison)},
+                                   {"in one only", single_blocks(comparison)},
+                                   {"orders that moved, the verdict being the same", moved_blocks(comparison)},
+                                   {columns, number_blocks(comparison)}};
+  std::erase_if(sections, [](const Section& section) { return section.blocks.empty(); });
+  constexpr std::size_t lines = 20;  // of all sections, so that the whole stays on a screen
+  std::string text = counts_text(comparison);
+  for (const Section& section : sections) {
+    text += section_text(section, all ? std::numeric_limits<std::size_t>::max() : lines / sections.size());
+  }
+  return text + origin_text(comparison);
 }
 
 }  // namespace acstudy

@@ -4,6 +4,7 @@
 /// Two sets of results side by side: the same findings, cases and points of both, and what differs.
 
 #include <array>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,8 +44,8 @@ double ratio(double before, double after);
 /// How many of some numbers are the same, and how far apart the others are.
 struct Tally {
   std::size_t all = 0, equal = 0;
-  double low = 1.0, high = 1.0;  ///< smallest and largest ratio
-  bool without_ratio = false;    ///< some differ, and have no ratio
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;  ///< smallest and largest ratio
+  bool without_ratio = false;                                        ///< some differ, and have no ratio
 
   void count(double before, double after);
   void add(const Tally& other);

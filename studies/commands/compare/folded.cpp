@@ -14,9 +14,9 @@ std::size_t columns(std::string_view text) {
 
 }  // namespace
 
-std::vector<std::string> folded(std::string_view text, const std::string& first, const std::string& next) {
+Block folded(std::string_view text, const std::string& first, const std::string& next) {
   constexpr std::size_t width = 80;
-  std::vector<std::string> lines;
+  Block lines;
   std::string line = first;
   bool empty = true;
   for (std::size_t begin = 0; begin < text.size();) {

@@ -9,13 +9,17 @@
 
 namespace acstudy {
 
+using Block = std::vector<std::string>;  ///< lines
+
 /// A text in lines of 80 columns at most, broken between words; a longer word has a line of its own.
 /// @param first  begins the first line
 /// @param next   begins the others
-std::vector<std::string> folded(std::string_view text, const std::string& first, const std::string& next);
+Block folded(std::string_view text, const std::string& first, const std::string& next);
 
-inline void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
-  lines.insert(lines.end(), more.begin(), more.end());
+inline void append(Block& lines, const Block& more) { lines.insert(lines.end(), more.begin(), more.end()); }
+
+inline void print_to(std::string& text, const Block& lines) {
+  for (const std::string& line : lines) text += line + "\n";
 }
 
 }  // namespace acstudy

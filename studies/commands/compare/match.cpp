@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -14,12 +15,15 @@ namespace acstudy {
 
 namespace {
 
-/// By what a case of a finding is known, but for round-off.
+/// A number but for round-off; JSON has null for all that is not finite.
+std::string rounded(double value) { return std::isfinite(value) ? fmt::format("{:.12g}", value) : "null"; }
+
+/// By what a case of a finding is known.
 std::string key_of(const CaseRecord& one) {
-  return fmt::format("{} {:.12g} {:.12g} {}", one.N, one.h, one.delta, one.reference);
+  return fmt::format("{} {} {} {}", one.N, rounded(one.h), rounded(one.delta), one.reference);
 }
 std::string key_of(const Point& one) {
-  return fmt::format("{} {:.12g} {:.12g} {:.12g} {}", one.N, one.h, one.delta, one.variable, one.label);
+  return fmt::format("{} {} {} {} {}", one.N, rounded(one.h), rounded(one.delta), rounded(one.variable), one.label);
 }
 
 /// The things of two lists that have the same key; of several of one key the first with the first.

@@ -15,18 +15,13 @@ double ratio(double before, double after) {
 }
 
 void Tally::count(double before, double after) {
+  const bool alike = same(before, after);
+  const double quotient = alike ? 1.0 : ratio(before, after);
   ++all;
-  if (same(before, after)) {
-    ++equal;
-    return;
-  }
-  const double quotient = ratio(before, after);
-  if (std::isnan(quotient)) {
-    without_ratio = true;
-  } else {
-    low = std::min(low, quotient);
-    high = std::max(high, quotient);
-  }
+  equal += alike ? 1 : 0;
+  without_ratio = without_ratio || std::isnan(quotient);
+  low = std::fmin(low, quotient);
+  high = std::fmax(high, quotient);
 }
 
 void Tally::add(const Tally& other) {
@@ -38,6 +33,7 @@ void Tally::add(const Tally& other) {
 }
 
 double Tally::distance() const {
+  if (!differs()) return 0.0;
   return without_ratio ? std::numeric_limits<double>::infinity() : std::max(-std::log(low), std::log(high));
 }
 

@@ -23,4 +23,7 @@ struct Origin {
 /// What is known of where the two come from but when, by which command and on how many processors.
 std::vector<Origin> origins(const Comparison& comparison);
 
+/// Both sets with where they come from, and what may be the cause where numbers differ.
+std::string origin_text(const Comparison& comparison);
+
 }  // namespace acstudy

@@ -25,7 +25,7 @@ struct CaseRecord {
 struct FindingRecord {
   std::string study;
   Finding finding;
-  std::string verdict;  ///< that the file states
+  std::string verdict;  ///< that the file states, be it one or not
   /// All of the check, by name; empty in files of older versions.
   std::map<std::string, Coordinate::Value> coordinates = {};
   std::vector<CaseRecord> cases = {};  ///< of a finding on a series

@@ -30,7 +30,7 @@ Verdict verdict(const json& value) {
 /// What the file states of the judgement.
 Judgement stated_judgement(const json& one) {
   Judgement judgement;
-  judgement.verdict = verdict(one.at("verdict"));
+  judgement.verdict = verdict_from(one.at("verdict").get<std::string>()).value_or(Verdict::inconclusive);
   judgement.reason = one.value("reason", "");
   const json observed = one.value("observed", json::object());
   const auto estimate = [&](const char* name) { return real(observed.value(name, json(nullptr))); };

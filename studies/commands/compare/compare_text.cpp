@@ -80,7 +80,9 @@ Block worsened_block(const FindingComparison& one, bool all) {
   Block why = folded(one.why, "    ", "    ");
   if (!all && why.size() > most) {
     why.resize(most);
-    why.back() += " ...";
+    std::string& last = why.back();
+    while (last.size() + 4 > 80) last.erase(last.find_last_of(' '));
+    last += " ...";
   }
   append(lines, why);
   return lines;

@@ -28,6 +28,16 @@ ResultRecord read_file(const fs::path& file) {
       fmt::format("{}: a result file ends in .json or .h5; name one, or the folder that holds some", file.string()));
 }
 
+/// Throws if what a file states is no verdict; the gate counts that as one that departs.
+void require_verdicts(const fs::path& file, const ResultRecord& study) {
+  for (const FindingRecord& record : study.findings) {
+    if (verdict_from(record.verdict)) continue;
+    throw InputError(
+        fmt::format("{}: not a result file of acstudy: \"{}\" has unknown verdict \"{}\"; run its study again",
+                    file.string(), record.finding.label(), record.verdict));
+  }
+}
+
 /// The result files of a folder, one of each name.
 std::vector<fs::path> files_of(const fs::path& folder) {
   std::map<std::string, fs::path> files;
@@ -62,6 +72,7 @@ ResultSet read_results(const std::string& path) {
   std::map<std::string, fs::path> seen;
   for (const fs::path& file : fs::is_directory(path, ignored) ? files_of(path) : std::vector<fs::path>{path}) {
     set.studies.push_back(read_file(file));
+    require_verdicts(file, set.studies.back());
     const auto [first, is_new] = seen.emplace(set.studies.back().study, file);
     if (!is_new) {
       throw InputError(fmt::format("{}: study \"{}\" is also in {}; move one of them away", file.string(), first->first,

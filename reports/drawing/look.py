@@ -51,6 +51,7 @@ class Drawing:
     alt: str
     caption: str
     statements: tuple = ()  # of theory that it shows; empty: those of its whole study
+    curves: tuple = ()      # hover.Curve of each that is marked, once it is rendered
     files: dict = field(default_factory=dict)   # content by extension, once it is rendered
 
 
@@ -74,8 +75,8 @@ def add_axes(figure, left, bottom, width, height, **more):
 
 def foot_legend(figure, left, keys, texts, columns, spacing=2.0, bottom=0.1, **more):
     """A legend whose lower left corner is at a place in inches. `texts`: as matplotlib sets them."""
-    figure.legend(keys, texts, loc="lower left", ncol=columns, columnspacing=spacing,
-                  bbox_to_anchor=(left / WIDTH, bottom / figure.get_figheight()), **LEGEND | more)
+    return figure.legend(keys, texts, loc="lower left", ncol=columns, columnspacing=spacing,
+                         bbox_to_anchor=(left / WIDTH, bottom / figure.get_figheight()), **LEGEND | more)
 
 
 def mark_departing(panel, x, y, width=4):

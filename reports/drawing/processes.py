@@ -9,7 +9,7 @@ from multiprocessing.connection import wait
 import os
 import signal
 
-from drawing import look
+from drawing import hover, look
 
 
 class DrawingKilled(Exception):
@@ -90,7 +90,8 @@ def _rendered(task):
     on = gc.isenabled()
     gc.disable()
     try:
-        return [replace(one, files=look.render(one.figure, one.title), figure=None) for one in draw(*arguments)]
+        return [replace(one, files=look.render(one.figure, one.title), curves=hover.curves(one.figure), figure=None)
+                for one in draw(*arguments)]
     finally:
         if on:
             gc.enable()

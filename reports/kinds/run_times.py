@@ -6,7 +6,7 @@ import math
 from matplotlib.lines import Line2D
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.frames import panel_frames
 from drawing.look import DASHES, LINE, Drawing, foot_legend, typography
 from drawing.styles import Style
@@ -60,8 +60,8 @@ def cost_figure(studies, styles):
         seconds, errors = np.array(timed).T if timed else (np.array([]), np.array([]))
         for frame, (path, drawn) in zip(frames, panels.items()):
             frame.axes.set_title(names.path_math(path))
-            for cases, _, style in drawn:
-                error_over_seconds(frame.axes, cases, **style.line())
+            for cases, text, style in drawn:
+                error_over_seconds(frame.axes, cases, name=text, about=path, **style.line())
             axes.set_log_limits(frame.axes, axes.padded(seconds), axes.padded(errors), frame.inches)
             frame.axes.minorticks_off()     # they would take half of the drawing time
             if frame.first:
@@ -69,8 +69,9 @@ def cost_figure(studies, styles):
             if frame.last:
                 frame.axes.set_xlabel("run time (s)")
             frame.axes.tick_params(labelleft=frame.first, labelbottom=frame.last)
-        foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in legend.values()],
-                    map(names.literal, legend), columns)
+        key = foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in legend.values()],
+                          map(names.literal, legend), columns)
+        hover.mark_legend(key, legend)
         return figure
 
 

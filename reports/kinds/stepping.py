@@ -6,7 +6,7 @@ import math
 from matplotlib.lines import Line2D
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import COLORS, DASHES, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.timed import error_over_seconds
 from kinds.kind import Kind, Summary, departing_text, row_head
@@ -56,7 +56,7 @@ def run_time_figure(panels):
                     continue
                 panel = add_axes(figure, left + k * (width + gap), bottom, width, tall, xscale="log", yscale="log")
                 for result in panels[path, scheme]:
-                    _draw(panel, result.series.cases, ways.index(result.series.stepping))
+                    _draw(panel, result, ways.index(result.series.stepping))
                 axes.set_log_limits(panel, times, errors, (width, tall))
                 panel.minorticks_off()      # they would take half of the drawing time
                 last = i == len(paths) - 1
@@ -70,7 +70,8 @@ def run_time_figure(panels):
                 if k == 0:
                     panel.set_ylabel("max-norm error at $T$")
         keys = [Line2D([], [], **_style(i)) for i in range(len(ways))]
-        foot_legend(figure, left, keys, [names.literal(_said(way, every)) for way in ways], 2)
+        key = foot_legend(figure, left, keys, [names.literal(_said(way, every)) for way in ways], 2)
+        hover.mark_legend(key, ways)
         return figure
 
 
@@ -87,11 +88,13 @@ def _style(i):
                 markerfacecolor=color if i % 2 == 0 else "none")
 
 
-def _draw(panel, cases, i):
-    error_over_seconds(panel, cases, **_style(i))
+def _draw(panel, result, i):
+    series, cases = result.series, result.series.cases
+    error_over_seconds(panel, cases, name=series.stepping, about=f"{series.path}: {result.verdict}", **_style(i))
     lost = ~np.isfinite(cases.error_linf) & (cases.seconds > 0)
-    panel.plot(cases.seconds[lost], np.full(lost.sum(), 0.975), linestyle="none", marker="x", markersize=6,
-               color=_style(i)["color"], transform=panel.get_xaxis_transform())
+    crosses, = panel.plot(cases.seconds[lost], np.full(lost.sum(), 0.975), linestyle="none", marker="x", markersize=6,
+                          color=_style(i)["color"], transform=panel.get_xaxis_transform())
+    hover.mark(crosses, series.stepping, f"{series.path}: blew up", N=cases.N[lost], seconds=cases.seconds[lost])
 
 
 def table(study):

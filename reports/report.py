@@ -41,12 +41,15 @@ def main(arguments=None):
     return 0
 
 
-def report(folder, files):
-    """Draws every figure of the result files and benches and the pages into `folder`; the path of the first page."""
+def report(folder, files, figures_to=None, formats=()):
+    """Draws the figures of the result files and benches and the page into `folder`; the path of the page.
+
+    figures_to: a folder for the figures as files of these `formats`, or None.
+    """
     from drawing import processes
     from kinds import registry, run_times
     from kinds.bench import figures as bench_figures
-    from pages import bench as bench_page, claims, comparison, mutants, page
+    from pages import comparison, mutants, page, run_time
     from reading import bench_results, results
 
     studies = [results.read_study(file) for file in files]
@@ -54,26 +57,21 @@ def report(folder, files):
     seeded, compared = mutants.read(folder), comparison.read(folder)
     benches = bench_results.read_all(folder)
     styles = registry.styles(studies)
-    drawings = {}
-    names = (*(study.name for study in studies), "cost", "bench")
+    scenes = run_time.scenes(studies)
     tasks = [*((registry.drawings, study, styles) for study in studies),
-             (run_times.drawings, registry.with_run_times(studies), styles), (bench_figures.drawings, benches, styles)]
-    with closing(processes.in_turn(tasks, len(studies) + bool(benches))) as drawn_in_turn:
-        for name, drawn in zip(names, drawn_in_turn):
-            for one in drawn:
-                for kind, content in one.files.items():
-                    _write(folder / f"{one.stem}.{kind}", content)
-            drawings[name] = drawn
-    cost = next(iter(drawings.pop("cost")), None)
-    of_benches = drawings.pop("bench")
-    if benches:
-        links = [("index.html", "all studies")] if studies else []
-        _write(folder / bench_page.FILE, bench_page.html(benches, of_benches, links).encode("utf-8"))
-    if not studies:
-        return folder / bench_page.FILE
+             *((run_times.drawings, group, styles, scene) for scene, group in scenes.items()),
+             (bench_figures.drawings, benches, styles)]
+    with closing(processes.in_turn(tasks, len(tasks), formats)) as drawn_in_turn:
+        drawn = list(drawn_in_turn)
+    if figures_to is not None:
+        for one in (one for group in drawn for one in group):
+            for kind, content in one.files.items():
+                _write(figures_to / f"{one.stem}.{kind}", content)
+    n = len(studies)
     index = folder / "index.html"
-    _write(index, page.html(studies, drawings, cost, seeded, compared, bool(benches)).encode("utf-8"))
-    _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
+    costs = [one for group in drawn[n:-1] for one in group]
+    _write(index, page.html(studies, dict(zip((study.name for study in studies), drawn)), costs, benches, drawn[-1],
+                            seeded, compared).encode("utf-8"))
     return index
 
 

@@ -3,10 +3,10 @@
 Nothing is fitted here; orders, intervals and verdicts are those of the result file.
 """
 
-from html import escape
 import math
 import textwrap
 
+from markupsafe import Markup
 from matplotlib.lines import Line2D
 import numpy as np
 
@@ -14,10 +14,10 @@ from drawing import axes, hover
 from drawing.frames import panel_frames
 from drawing.look import DEPARTING, GRAY, LEGEND, LINE, Drawing, typography
 from drawing.timed import of_cases
-from kinds.kind import Kind, Summary
+from kinds.kind import Kind
 from reading import names
-from writing import markup
-from writing.series import article, labeled
+from writing import figures, markup
+from writing.series import cases_fold, series_table
 
 
 def drawings(study, styles):
@@ -134,28 +134,12 @@ def _by_path(findings):
 
 # ------------------------------------------------------------------------------------------------------- on the page
 
-def _summary_rows(study):
-    return "".join(_summary_row(study, result, label) for result, label in labeled(study))
-
-
-def _summary_row(study, result, label):
-    theory = (f"{names.order(result.theory_order, '{:g}')} in {markup.variable(result.variable_name)}"
-              f' <span class="note">{escape(result.series.theory_statement)}</span>')
-    interval = f"[{names.order(result.observed_low)}, {names.order(result.observed_high)}]"
-    return (f'<tr{markup.departs(result)}><td><a href="#{study.name}">{study.name}</a></td>'
-            f'<th scope="row">{escape(label)}</th><td>{escape(result.series.path)}</td><td class="theory">{theory}</td>'
-            f'<td class="number">{names.order(result.observed_order)}</td><td class="number">{interval}</td>'
-            f'<td class="number">{names.order(result.series.observed_fitted)}</td>'
-            f"<td>{markup.badge(result)}</td><td>{markup.expected(result)}</td></tr>\n")
-
-
 def _section(study, drawings, entries):
     if not study.findings:
-        return "<p>No series has been run.</p>\n"
-    return "".join((*map(markup.figure, drawings), *(article(result, label) for result, label in labeled(study))))
+        return markup.joined([Markup("<p>No series has been run.</p>\n")])
+    departing = sum(not result.as_expected for result in study.findings)
+    return markup.joined((markup.outcome({"series": departing}, {"series": len(study.findings)}),
+                          *map(figures.figure, drawings), series_table(study), cases_fold(study)))
 
 
-KIND = Kind(drawings, _section, Summary("series", "", ("study", "scheme", "path", "theory's order", "observed order",
-                                                       "95 % interval", "by a power law alone", "verdict",
-                                                       "as expected"), "Claims and verdicts", _summary_rows),
-            run_times=True)
+KIND = Kind(drawings, _section, run_times=True, noun="series")

@@ -8,22 +8,22 @@ import numpy as np
 
 from drawing import axes, hover
 from drawing.frames import panel_frames
-from drawing.look import DASHES, LINE, Drawing, foot_legend, typography
+from drawing.look import DASHES, LINE, Drawing, foot_legend, slug, typography
 from drawing.styles import Style
 from drawing.timed import error_over_seconds
 from reading import names
 
 
-def drawings(studies, styles):
-    """The cost figure, or nothing."""
+def drawings(studies, styles, scene):
+    """The cost figure of the studies of one scene, or nothing."""
     figure = cost_figure(studies, styles)
     return [] if figure is None else [Drawing(
-        "cost", "Error against run time", figure,
-        "Log-log plot of the max-norm error against the run time of every scheme, a panel per path. "
-        "Values: tables above.",
-        "Run time of the whole time loop, or a case's share of it where several advance on the same particles: median "
-        "of the repeats, bars from the fastest to the slowest. Comparable only between runs of one machine. Series run "
-        "by several studies are drawn once.")]
+        f"cost.{slug(scene)}", f"Error against run time: {scene}", figure,
+        f"Log-log plot of the max-norm error against the run time of every scheme on the scene {scene}, a panel per "
+        "path. Values: tables below.",
+        f"Scene {scene}. Run time of the whole time loop, or a case's share of it where several advance on the same "
+        "particles: median of the repeats, bars from the fastest to the slowest. Comparable only between runs of one "
+        "machine. Series run by several studies are drawn once.")]
 
 
 def cost_curves(studies):

@@ -4,14 +4,12 @@ import math
 
 from markupsafe import Markup
 
+from kinds.controls import COUNT, SHORT
 from pages import questions
 from reading import names
 from writing import markup, tables
 from writing.series import interval, labeled
 
-IN_NUMBERS = ("scheme", "~path", "#order in the limit [95 %]", "#theory", "verdict", Markup("#finest <var>N</var>"),
-              "#error there", "#seconds there")
-NOTICED = ("~what is wrong", "~what it does", "#alarms", "~noticed by")
 
 
 def study_of(found):
@@ -40,33 +38,47 @@ def reading(study):
 
 
 def in_numbers(study):
-    """The series of the headline figure: the order and how sure it is, the finest error and what it cost."""
-    rows = []
+    """A row per scheme, a column per path: the order and how sure it is, the finest error and what it cost."""
+    paths = list(dict.fromkeys(result.series.path for result in study.findings))
+    cells = {}
     for result, label in labeled(study):
-        cases = result.series.cases
-        finest = ((f"{cases.N[-1]}", markup.error(cases.error_linf[-1]), markup.seconds(cases.seconds[-1]))
-                  if len(cases) else ("–",) * 3)
-        rows.append(tables.Row((label, result.series.path, interval(result), names.order(result.theory_order, "{:g}"),
-                                markup.badge(result), *finest), not result.as_expected))
-    return tables.table(f"{study.title}, in numbers", IN_NUMBERS, rows)
+        cells.setdefault(label, {}).setdefault(result.series.path, []).append(result)
+    rows = [tables.Row((label, *(markup.joined(map(_cell, of_scheme.get(path, ())), markup.BAR) or "–" for path in paths)),
+                       any(not result.as_expected for group in of_scheme.values() for result in group))
+            for label, of_scheme in cells.items()]
+    return tables.table(f"{study.title}, in numbers", ("scheme", *(names.path_text(path) for path in paths)), rows)
+
+
+def _cell(result):
+    cases = result.series.cases
+    finest = (f"error {cases.error_linf[-1]:.1e} at N = {cases.N[-1]} in {markup.seconds(cases.seconds[-1])} s".replace(
+        "e-0", "e−") if len(cases) else "")
+    return Markup("<strong>{}</strong>, theory {} {}<br>{}").format(
+        interval(result), names.order(result.theory_order, "{:g}"), markup.badge(result), markup.note(finest))
 
 
 def noticed(study):
-    """Of a study of kind "controls": each wrong scheme, what it does, and the checks that notice it."""
+    """Of a study of kind "controls": a row per wrong scheme, a column per check, with the verdict where it notices."""
+    wrong = [finding for finding in study.findings if finding.check != COUNT]
+    subjects = dict.fromkeys(finding.subject for finding in study.findings if finding.control)
+    checks = list(dict.fromkeys(finding.check for finding in wrong))
+    remarks = {finding.subject: finding.remark for finding in study.findings if finding.check == COUNT}
+    cells = {(finding.subject, finding.check): finding for finding in wrong}
     rows = []
-    for subject in dict.fromkeys(finding.subject for finding in study.findings if finding.control):
-        of_subject = [finding for finding in study.findings if finding.subject == subject]
-        checks = [finding for finding in of_subject if finding.check != "alarms"]
-        alarms = [finding for finding in checks if finding.alarm]
-        remark = next((finding.remark for finding in of_subject if finding.remark), "")
-        rows.append(tables.Row((subject, remark, f"{len(alarms)} of {len(checks)}", _by(alarms) or "nothing"),
-                               not all(finding.as_expected for finding in of_subject)))
-    return tables.table(f"{study.title}: wrong schemes", NOTICED, rows)
+    for subject in subjects:
+        found = [cells.get((subject, check)) for check in checks]
+        name, _, scheme = subject.rstrip(")").partition(" (")
+        rows.append(tables.Row((
+            Markup("<strong>{}</strong> {}").format(name, markup.note(remarks.get(subject, ""))), scheme.replace(" divergence", ""),
+            *map(_alarm, found)), not all(finding.as_expected for finding in found if finding)))
+    return tables.table(f"{study.title}: wrong schemes", ("what is wrong", "in", *(f"|{names.path_text(check)}" for check in checks)), rows)
 
 
-def _by(alarms):
-    """"step norm: violated; delta = h^2: stagnates"."""
-    by = {}
-    for finding in alarms:
-        by.setdefault(finding.verdict, []).append(finding.check)
-    return "; ".join(f"{verdict}: {', '.join(checks)}" for verdict, checks in by.items())
+def _alarm(finding):
+    """What a check says of a scheme where it notices something; what departs stands out."""
+    if finding is None:
+        return "–"
+    if not finding.alarm:
+        return "" if finding.as_expected else Markup("<strong>quiet</strong>")
+    return Markup('<span class="alarm{}" title="{}">{}</span>').format("" if finding.as_expected else " bad",
+                                                                      finding.verdict, SHORT.get(finding.verdict, finding.verdict))

@@ -6,7 +6,8 @@ from markupsafe import Markup
 
 from drawing import inlined, svg
 from kinds import registry
-from pages import claims, comparison, explorer, headline, mutants, questions, run_time
+from pages import claims, comparison, explorer, headline, in_parts, mutants, questions, run_time
+from pages.making import Drawn
 from pages.study import article, listing
 from pages.verdicts import departing, verdicts
 from writing import figures, markup, tables
@@ -22,45 +23,57 @@ class Section:
     content: Markup
 
 
-def html(studies, drawings, costs=(), benches=(), of_benches=(), seeded=None, compared=None):
-    """The page as text.
+def files(studies, drawn, benches=(), seeded=None, compared=None, parts=False):
+    """{name: text of the page}. parts: a page for each question, else all in one.
 
-    `drawings`: {name of a study: its drawings}; `costs`: drawings of the cost figures; `of_benches`: drawings of
-    `benches`; `seeded`: mutants.read(); `compared`: comparison.read().
+    `drawn`: making.Drawn; `seeded`: mutants.read(); `compared`: comparison.read().
     """
+    found = _contents(studies, drawn, benches, seeded, compared)
+    return in_parts.files(found) if parts else {"index.html": markup.render("page.html", **found, parts=False)}
+
+
+def html(studies, drawings, benches=(), seeded=None, compared=None):
+    """The page in one as text. `drawings`: {name of a study: its drawings}."""
+    return files(studies, Drawn(drawings, [], []), benches, seeded, compared)["index.html"]
+
+
+def _contents(studies, drawn, benches, seeded, compared):
+    """What the templates of the page name."""
     found = questions.by_question(studies)
     curves = run_time.curves(studies, benches)
     top = headline.study_of(found)
     # The headline figure stands on the first screen, and only there.
-    first = next(iter(drawings.get(top.name, [])), None) if top else None
-    rest = {name: [one for one in of_study if one is not first] for name, of_study in drawings.items()}
-    every = [*(one for of_study in drawings.values() for one in of_study), *costs, *of_benches]
-    sections = [_section(question, found, rest, drawings, studies) for question in questions.ALL]
-    timed = run_time.section(curves, costs, benches, of_benches, compared) if curves or compared else ""
-    sections = [Section(questions.RUN_TIME, timed) if one.question is questions.RUN_TIME else one for one in sections]
-    sections = [_with_mutants(one, seeded) if one.question is questions.MISTAKES else one for one in sections]
+    first = next(iter(drawn.studies.get(top.name, [])), None) if top else None
+    rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
+    inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
+    sections = {question: _answers(question, found, rest, drawn.studies, studies) for question in questions.ALL}
+    if curves or compared:
+        sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, benches, drawn.benches, compared)
+    if seeded is not None:
+        heading = Markup('<h3 id="q.seeded-mistakes">Mistakes seeded in the sources</h3>\n')
+        sections[questions.MISTAKES] += heading + mutants.section(seeded)
     bad = departing(studies)
     nouns = _count(studies)
-    return markup.render(
-        "page.html", title=TITLE, style=markup.style(inlined.dark("".join(one.inline for one in every))), faces=_faces(every), script=markup.script(),
-        verdicts=verdicts(found, curves, seeded), outcome=markup.outcome(
+    return dict(
+        title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(svg.faces(svg.letters(inline))),
+        script=markup.script(), verdicts=verdicts(found, curves, seeded), outcome=markup.outcome(
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
         departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,
         headline=figures.figure(first) if first else "", reading=headline.reading(top) if top else "",
         in_numbers=headline.in_numbers(top) if top else "",
         noticed=[headline.noticed(study) for study in found[questions.MISTAKES]],
-        sections=[one for one in sections if one.content], cases=_cases(studies), origin=_origin(studies),
-        seeded_absent=mutants.section(None) if seeded is None else "",
-        compared_absent=comparison.section(None) if compared is None and not timed else "")
+        sections=[Section(question, content) for question, content in sections.items() if content],
+        asked=[question for question, content in sections.items() if content],
+        cases=_cases(studies), origin=_origin(studies), seeded_absent=mutants.section(None) if seeded is None else "",
+        compared_absent=comparison.section(None) if compared is None and not sections[questions.RUN_TIME] else "")
 
 
-def _section(question, found, rest, drawings, studies):
+def _answers(question, found, rest, drawings, studies):
     parts = []
     if question in (questions.THEOREMS, questions.LEMMAS):
         parts += _statements(question, studies, drawings)
-    parts += [article(study, rest.get(study.name, [])) for study in found[question]]
-    return Section(question, markup.joined(parts))
+    return markup.joined((*parts, *(article(study, rest.get(study.name, [])) for study in found[question])))
 
 
 def _statements(question, studies, drawings):
@@ -74,13 +87,6 @@ def _statements(question, studies, drawings):
     return parts
 
 
-def _with_mutants(section, seeded):
-    if seeded is None:
-        return section
-    heading = Markup('<h3 id="seeded-mistakes">Mistakes seeded in the sources</h3>\n')
-    return Section(section.question, markup.joined((section.content, heading, mutants.section(seeded))))
-
-
 def _count(studies):
     nouns = {}
     for study in studies:
@@ -91,10 +97,6 @@ def _count(studies):
 def _cases(studies):
     data = explorer.data(studies)
     return markup.data(data) if data else ""
-
-
-def _faces(drawings):
-    return Markup(svg.faces(svg.letters(*(drawing.inline for drawing in drawings)))) if drawings else ""
 
 
 def _origin(studies):

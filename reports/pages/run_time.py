@@ -52,7 +52,7 @@ def section(curves_found, costs, benches, of_benches, compared):
         table = tables.table(title, [f"~{header[0]}", *header[1:]], rows)
         parts.append(tables.fold(title, markup.joined((table, Markup("<p>{}</p>\n").format(markup.note(text))))))
     parts += [tables.fold(f"Provenance of {bench.file.parent.name}", _origin(bench)) for bench in benches]
-    parts += [Markup('<h3 id="comparison">Other programs on the same cases</h3>\n'), comparison.section(compared)]
+    parts += [Markup('<h3 id="q.comparison">Other programs on the same cases</h3>\n'), comparison.section(compared)]
     return markup.joined(parts)
 
 

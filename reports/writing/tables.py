@@ -13,7 +13,7 @@ LONG = 12       # rows; a longer table of findings is folded behind its worst ro
 
 @dataclass(frozen=True)
 class Column:
-    """kind: "n" for numbers, "said" for text that may be broken into lines, else empty."""
+    """kind: "n" for numbers, "said" for text that may be broken into lines, "mark" for a narrow one, else empty."""
     name: str
     kind: str = ""
 
@@ -37,8 +37,8 @@ class Table:
 
 
 def table(label, columns, rows):
-    """columns: texts, after "#" for numbers and after "~" for text that may be broken; rows: Row or cells."""
-    kinds = {"#": "n", "~": "said"}
+    """columns: texts, after "#" for numbers, "~" for text that may be broken, "|" for a mark; rows: Row or cells."""
+    kinds = {"#": "n", "~": "said", "|": "mark"}
     columns = tuple(Column(Markup(one[1:]) if isinstance(one, Markup) else one[1:], kinds[one[0]]) if one[0] in kinds
                     else Column(one) for one in columns)
     return Table(label, columns, tuple(row if isinstance(row, Row) else Row(tuple(row)) for row in rows))

@@ -18,7 +18,7 @@ def files(found):
     parts = {FIRST: dict(found, sections=())}
     for section in found["sections"]:
         parts[f"{section.question.anchor}.html"] = found | _NOTHING | dict(sections=[section])
-    pages = {name: markup.render("page.html", **part, parts=True) for name, part in parts.items()}
+    pages = {name: str(markup.render("page.html", **part, parts=True)) for name, part in parts.items()}
     own = {name: set(_ID.findall(text)) for name, text in pages.items()}
     where = {one: name for name, ids in reversed(own.items()) for one in ids}
     return shared | {name: _LINK.sub(lambda link: _led(link, own[name], where), text) for name, text in pages.items()}

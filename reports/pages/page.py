@@ -29,7 +29,7 @@ def files(studies, drawn, benches=(), seeded=None, compared=None, parts=False):
     `drawn`: making.Drawn; `seeded`: mutants.read(); `compared`: comparison.read().
     """
     found = _contents(studies, drawn, benches, seeded, compared)
-    return in_parts.files(found) if parts else {"index.html": markup.render("page.html", **found, parts=False)}
+    return in_parts.files(found) if parts else {"index.html": str(markup.render("page.html", **found, parts=False))}
 
 
 def html(studies, drawings, benches=(), seeded=None, compared=None):

@@ -3,7 +3,7 @@
 from drawing.styles import styles_of
 from kinds import (consistency, controls, convergence, corpus, coverage, digits, error_map, extremes, identities,
                    pollution, scan, stability, stability_map, stepping)
-from kinds.kind import BY_FINDINGS, Kind
+from kinds.kind import Kind
 from reading import ledger
 
 KINDS = {
@@ -21,7 +21,6 @@ KINDS = {
     "stability": stability.KIND,
     "stability-map": stability_map.KIND,
 }
-SUMMARIES = (convergence.KIND.summary, stepping.KIND.summary, BY_FINDINGS)
 
 
 def of(study):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Draws the figures and the page of acstudy's result files: python3 reports/report.py [OUT_DIR] [STUDY.h5 ...]
-                        [--figures DIR [--format svg,png,pdf]] [--folder]
+                        [--figures DIR [--format svg,png,pdf]] [--folder] [--against DIR ...]
 
 Exit codes: 0 done; 2 bad usage, nothing written; 4 a file that cannot be read or written, or a process that was killed;
 130 interrupted.
@@ -27,7 +27,9 @@ def main(arguments=None):
         from drawing import processes
         from reading import results
         try:
-            print(report(*_inputs(options), *_figures(options), options.folder))
+            made = against(*_inputs(options), options.against) if options.against else report(
+                *_inputs(options), *_figures(options), options.folder)
+            print(made)
         except (results.ResultError, processes.DrawingKilled) as error:
             return _fail(4, error)
     except UsageError as error:
@@ -68,6 +70,23 @@ def report(folder, files, figures=None, formats=(), parts=False):
     return folder / "index.html"
 
 
+def against(folder, files, earlier):
+    """Writes the page of this run beside earlier ones, `earlier` being their folders, into `folder`; its path."""
+    from pages import history, making
+    from reading.kept import Kept
+
+    kept = Kept(folder, _write)
+    runs = []
+    for name, of_run in (*((name, _results(Path(name))) for name in earlier), (str(folder), files)):
+        if not of_run:
+            raise UsageError(f"{name}: no result file (*.h5) in it; name a folder that acstudy run has written to")
+        studies = [making.read(file, kept) for file in of_run]
+        _refuse_clashes(studies)
+        runs.append(history.Run(name, tuple(studies)))
+    _write(folder / history.FILE, history.html(runs).encode("utf-8"))
+    return folder / history.FILE
+
+
 def _options(arguments):
     parser = argparse.ArgumentParser(
         prog="report.py", description="Draw the figures and the page of acstudy's result files.",
@@ -81,7 +100,11 @@ def _options(arguments):
     parser.add_argument("--format", metavar="LIST", help=f"of those files, with commas: {', '.join(FORMATS)} (default: svg)")
     parser.add_argument("--folder", action="store_true",
                         help="write a page for each question beside index.html, not one page that can be mailed")
+    parser.add_argument("--against", metavar="DIR", action="append", default=[],
+                        help="write history.html instead: results beside those in DIR; several times: oldest first")
     options = parser.parse_args(arguments)
+    if options.against and (options.figures or options.folder):
+        parser.error("--against writes no figures and one page; leave out --figures and --folder")
     if options.out_dir.endswith(".h5") and not Path(options.out_dir).is_dir():
         options.studies.insert(0, options.out_dir)
         options.out_dir = DEFAULT
@@ -103,16 +126,21 @@ def _figures(options):
 
 def _inputs(options):
     folder = Path(options.out_dir)
-    if not folder.is_dir():
-        raise UsageError(f"{folder}: no such folder; run a study first or name the folder of the result files")
     named = [Path(name) for name in options.studies]
-    files = named or sorted(file for file in folder.glob("*.h5") if not file.name.startswith("."))
+    files = _results(folder) if not named or not folder.is_dir() else named
     if not files and not list(folder.glob("bench*/bench.json")):
         raise UsageError(f"{folder}: no result file (*.h5) in it; run a study first")
     for file in files:
         if not file.is_file():
             raise UsageError(f"{file}: no such file; run the study first or name one of its result files")
     return folder, files
+
+
+def _results(folder):
+    """The result files in a folder."""
+    if not folder.is_dir():
+        raise UsageError(f"{folder}: no such folder; run a study first or name the folder of the result files")
+    return sorted(file for file in folder.glob("*.h5") if not file.name.startswith("."))
 
 
 def _refuse_clashes(studies):

@@ -200,14 +200,14 @@ class Compare(ProgramTest):
         for name in ("json", "h5"):
             (self.folder / "new" / f"other.{name}").unlink()
         text, said = self.compare(expect=0)
-        self.assertIn(f"\nin one only\n  OLD: study other, 1 verdicts\n  OLD: tiny: {NAME}4h\n", text)
+        self.assertIn(f"\nin one only\n  OLD: study other, 1 verdict\n  OLD: tiny: {NAME}4h\n", text)
         self.assertEqual([study["in"] for study in said["studies"]], ["old", "both"])
         finding = said["studies"][1]["findings"][1]
         self.assertEqual([case["in"] for case in finding["cases"]], ["old", "both", "both", "both"])
         self.assertEqual(said["numbers"]["only_in_old"], 1)
         self.assertFalse(said["identical"])
         text, said = self.compare(expect=0, old="new", new="old")
-        self.assertIn("\nin one only\n  NEW: study other, 1 verdicts\n", text)
+        self.assertIn("\nin one only\n  NEW: study other, 1 verdict\n", text)
 
     def test_findings_are_known_by_their_coordinates(self):
         """Another name is another thing only if nothing else tells which it is."""

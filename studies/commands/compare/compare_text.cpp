@@ -174,9 +174,10 @@ std::vector<Block> single_blocks(const Comparison& comparison) {
   std::vector<Block> blocks;
   for (const StudyComparison& study : comparison.studies) {
     if (study.both()) continue;
-    blocks.push_back(folded(fmt::format("{}: study {}, {} verdicts", study.after == nullptr ? "OLD" : "NEW",
-                                        study.any().study, study.findings.size()),
-                            "  ", "      "));
+    blocks.push_back(
+        folded(fmt::format("{}: study {}, {} verdict{}", study.after == nullptr ? "OLD" : "NEW", study.any().study,
+                           study.findings.size(), study.findings.size() == 1 ? "" : "s"),
+               "  ", "      "));
   }
   for (const StudyComparison& study : comparison.studies) {
     if (!study.both()) continue;

@@ -63,7 +63,8 @@ class Compare(ProgramTest):
         lines = text.splitlines()
         self.assertEqual(lines[0], "0 of 2 verdicts worsened, 0 improved, 0 changed otherwise")
         self.assertRegex(lines[1], r"\Abitwise equal: errors in 8 of 8 cases, (\d+) of \1 counts of work\Z")
-        self.assertEqual(lines[3][:23], "OLD  old: 1 study of 20")
+        self.assertEqual(lines[2], "in total NEW/OLD: pairs 1, seconds 1 (for information)")
+        self.assertEqual(lines[4][:23], "OLD  old: 1 study of 20")
         self.assertLess(len(lines), 12)
         self.assertEqual((said["format"], said["identical"], said["worsened"]), ("acstudy-compare-1", True, False))
         self.assertEqual(said["provenance_that_differs"], {})
@@ -125,7 +126,7 @@ class Compare(ProgramTest):
         text, said = self.compare(expect=0)
         self.assertIn("\nbitwise equal: errors in 7 of 8 cases, ", text)
         self.assertRegex(text, r"\n  tiny +7/8  1 to 1\+[12]e-16 +1 +1\n")
-        self.assertRegex(" ".join(text.split()), "nothing that decides a run differs between the two")
+        self.assertRegex(" ".join(text.split()), "nothing that decides a run differs, and")
         self.assertFalse(said["identical"])
         cases = said["studies"][0]["findings"][0]["cases"]
         self.assertEqual([case["differ"] for case in cases], [[], [], ["error_linf"], []])
@@ -146,9 +147,15 @@ class Compare(ProgramTest):
         self.new(slower, lambda result: result["series"][0]["cases"][0]["work"].update(pairs=7))
         text, said = self.compare(expect=0)
         self.assertFalse(said["identical"])
-        self.assertRegex(text, r"\n  tiny +8/8  1 +0\.\d+ +3\n")
+        self.assertRegex(text, r"\n  tiny +8/8  equal +0\.\d+ +3\n")
         case = said["studies"][0]["findings"][0]["cases"][0]
         self.assertEqual((case["differ"], case["work_pairs"]["new"]), (["work_pairs"], 7))
+
+    def test_numbers_that_are_no_errors(self):
+        self.new(lambda result: result["series"][0]["cases"][0].update(dt=0.125, dt_smallest=0.125))
+        text, said = self.compare(expect=0)
+        self.assertRegex(text, r"\n  tiny +8/8  equal +1 +1\n    2 of \d+ orders, steps, counts and other norms differ\n")
+        self.assertEqual(said["studies"][0]["findings"][0]["cases"][0]["differ"], ["dt", "dt_smallest"])
 
     def test_orders_side_by_side(self):
         self.new(lambda result: result["series"][0]["observed"].update(order=1.25, low=1.2, high=1.3))
@@ -200,14 +207,14 @@ class Compare(ProgramTest):
         for name in ("json", "h5"):
             (self.folder / "new" / f"other.{name}").unlink()
         text, said = self.compare(expect=0)
-        self.assertIn(f"\nin one only\n  OLD: study other, 1 verdict\n  OLD: tiny: {NAME}4h\n", text)
+        self.assertIn(f"\nin one only\n  OLD: 1 study: other\n  OLD: tiny: {NAME}4h\n", text)
         self.assertEqual([study["in"] for study in said["studies"]], ["old", "both"])
         finding = said["studies"][1]["findings"][1]
         self.assertEqual([case["in"] for case in finding["cases"]], ["old", "both", "both", "both"])
         self.assertEqual(said["numbers"]["only_in_old"], 1)
         self.assertFalse(said["identical"])
         text, said = self.compare(expect=0, old="new", new="old")
-        self.assertIn("\nin one only\n  NEW: study other, 1 verdict\n", text)
+        self.assertIn("\nin one only\n  NEW: 1 study: other\n", text)
 
     def test_findings_are_known_by_their_coordinates(self):
         """Another name is another thing only if nothing else tells which it is."""
@@ -297,6 +304,16 @@ class Compare(ProgramTest):
                 done = self.acstudy("compare", "old", "hostile.json")
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
                 self.assertRegex(done.stderr, r"\Aacstudy: hostile.json: (not|cannot read) ")
+
+    def test_what_a_file_says_does_not_steer_the_terminal(self):
+        def hostile(result):
+            result["series"][0].update(verdict="below", path="a\x1b[2J\nb", reason="\x1b]0;title\x07 \x7f")
+            result["provenance"]["version"] = "\x1b[31m"
+
+        self.new(hostile)
+        text, _ = self.compare("-v", expect=1)
+        self.assertNotRegex(text, r"[\x00-\x09\x0b-\x1f\x7f]")
+        self.assertIn("a?[2J?b", text)
 
     def test_two_findings_or_studies_that_cannot_be_told_apart(self):
         self.new(lambda result: result["series"].append(result["series"][0]))

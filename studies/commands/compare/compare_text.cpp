@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "studies/commands/check.hpp"
 #include "studies/commands/compare/compare_output.hpp"
@@ -24,11 +23,11 @@ std::string ratio_text(double ratio) {
 }
 
 std::string range_text(const Tally& tally) {
-  if (!tally.differs()) return ratio_text(1.0);
+  if (!tally.differs()) return "equal";
   if (tally.low > tally.high) return "none";
-  std::string text = ratio_text(tally.low);
-  if (tally.low != tally.high) text += " to " + ratio_text(tally.high);
-  return tally.without_ratio ? text + ", or none" : text;
+  const std::string low = ratio_text(tally.low), high = ratio_text(tally.high);
+  const std::string range = low == high ? low : fmt::format("{} to {}", low, high);
+  return tally.without_ratio ? range + ", or none" : range;
 }
 
 std::string sum_text(const Sum& sum) {
@@ -43,7 +42,7 @@ std::string single_text(const Numbers& numbers) {
 std::string numbers_text(const Numbers& numbers) {
   std::vector<std::string> parts;
   const auto say = [&](const char* of, const Tally& tally) {
-    if (tally.all > 0) parts.push_back(fmt::format("{} {}", of, tally.differs() ? range_text(tally) : "equal"));
+    if (tally.all > 0) parts.push_back(fmt::format("{} {}", of, range_text(tally)));
   };
   say("errors", numbers.errors);
   say("values", numbers.values);
@@ -172,12 +171,15 @@ std::vector<Block> changed_blocks(const Comparison& comparison) {
 /// What is in one set only: whole studies first.
 std::vector<Block> single_blocks(const Comparison& comparison) {
   std::vector<Block> blocks;
-  for (const StudyComparison& study : comparison.studies) {
-    if (study.both()) continue;
-    blocks.push_back(
-        folded(fmt::format("{}: study {}, {} verdict{}", study.after == nullptr ? "OLD" : "NEW", study.any().study,
-                           study.findings.size(), study.findings.size() == 1 ? "" : "s"),
-               "  ", "      "));
+  for (const bool old : {true, false}) {
+    std::vector<std::string> names;
+    for (const StudyComparison& study : comparison.studies) {
+      if (!study.both() && old == (study.after == nullptr)) names.push_back(study.any().study);
+    }
+    if (names.empty()) continue;
+    blocks.push_back(folded(fmt::format("{}: {} {}: {}", old ? "OLD" : "NEW", names.size(),
+                                        names.size() == 1 ? "study" : "studies", fmt::join(names, ", ")),
+                            "  ", "      "));
   }
   for (const StudyComparison& study : comparison.studies) {
     if (!study.both()) continue;
@@ -229,6 +231,12 @@ std::vector<Block> number_blocks(const Comparison& comparison) {
                                 fmt::format("{}/{}", tally.equal, tally.all), range_text(tally),
                                 sum_text(study->numbers.pairs), sum_text(study->numbers.seconds)));
     if (study->numbers.gone + study->numbers.added > 0) block.push_back("    " + single_text(study->numbers));
+    Tally others = study->numbers.others;
+    for (const Tally& more : {study->numbers.norms, study->numbers.work, study->numbers.orders}) others.add(more);
+    if (!tally.differs() && others.differs()) {
+      block.push_back(fmt::format("    {} of {} orders, steps, counts and other norms differ",
+                                  others.all - others.equal, others.all));
+    }
   }
   return blocks;
 }
@@ -249,6 +257,11 @@ std::string counts_text(const Comparison& comparison) {
   say(numbers.values, fmt::format("{} of {} values", numbers.values.equal, numbers.values.all));
   say(numbers.work, fmt::format("{} of {} counts of work", numbers.work.equal, numbers.work.all));
   if (!equal.empty()) print_to(text, folded(fmt::format("bitwise equal: {}", fmt::join(equal, ", ")), "", "  "));
+  if (numbers.pairs.after > 0.0) {
+    print_to(text, folded(fmt::format("in total NEW/OLD: pairs {}, seconds {} (for information)",
+                                      sum_text(numbers.pairs), sum_text(numbers.seconds)),
+                          "", "  "));
+  }
   return text;
 }
 
@@ -263,7 +276,7 @@ std::string comparison_text(const Comparison& comparison, bool all) {
                                    {"orders that moved, the verdict being the same", moved_blocks(comparison)},
                                    {columns, number_blocks(comparison)}};
   std::erase_if(sections, [](const Section& section) { return section.blocks.empty(); });
-  constexpr std::size_t lines = 20;  // of all sections, so that the whole stays on a screen
+  constexpr std::size_t lines = 17;  // of all sections, so that the whole stays on a screen
   std::string text = counts_text(comparison);
   for (const Section& section : sections) {
     text += section_text(section, all ? std::numeric_limits<std::size_t>::max() : lines / sections.size());

@@ -35,7 +35,12 @@ Block folded(std::string_view text, const std::string& first, const std::string&
     begin = after;
   }
   lines.push_back(line);
-  for (std::string& one : lines) one.erase(one.find_last_not_of(' ') + 1);
+  for (std::string& one : lines) {
+    one.erase(one.find_last_not_of(' ') + 1);
+    // What a file says must not steer the terminal.
+    std::replace_if(
+        one.begin(), one.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
+  }
   return lines;
 }
 

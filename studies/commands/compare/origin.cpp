@@ -74,12 +74,13 @@ std::string origin_text(const Comparison& comparison) {
   }
   if (!alike.empty()) append(lines, folded(fmt::format("the same: {}", fmt::join(alike, "; ")), "     ", "       "));
   if (comparison.numbers.differ()) {
-    const std::string said =
-        causes.empty() ? "nothing that decides a run differs between the two, and runs are deterministic: the study "
-                         "files differ, or "
-                         "the sources that measure and judge, or a file was changed"
-                       : fmt::format("runs are deterministic: numbers differ because of {}, or of the study files",
-                                     fmt::join(causes, ", "));
+    std::string said =
+        "nothing that decides a run differs, and runs are deterministic: the study files differ, or the ";
+    said += "sources that measure and judge, or a file was changed";
+    if (!causes.empty()) {
+      said = fmt::format("runs are deterministic: numbers differ because of {}, or of the study files",
+                         fmt::join(causes, ", "));
+    }
     append(lines, folded(said, "     ", "     "));
   }
   std::string text = "\n";

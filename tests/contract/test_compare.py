@@ -313,7 +313,8 @@ class Compare(ProgramTest):
         self.new(hostile)
         text, _ = self.compare("-v", expect=1)
         self.assertNotRegex(text, r"[\x00-\x09\x0b-\x1f\x7f]")
-        self.assertIn("a?[2J?b", text)
+        self.assertIn("    ?]0;title? ?\n", text)
+        self.assertIn(", NEW ?[31m\n", text)
 
     def test_two_findings_or_studies_that_cannot_be_told_apart(self):
         self.new(lambda result: result["series"].append(result["series"][0]))

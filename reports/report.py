@@ -54,7 +54,7 @@ def report(folder, files, figures=None, formats=(), parts=False):
     from reading.kept import Kept
 
     kept = Kept(folder, _write)
-    studies = [making.read(file, kept) for file in files]
+    studies = making.read(files, kept)
     _refuse_clashes(studies)
     benches = bench_results.read_all(folder)
     seeded, compared = mutants.read(folder), comparison.read(folder)

@@ -2,6 +2,7 @@
 
 from contextlib import closing
 from dataclasses import dataclass, replace
+from functools import partial
 
 from drawing import processes
 from kinds import registry, run_times
@@ -18,29 +19,32 @@ class Drawn:
     benches: list
 
 
-def read(file, kept):
-    """The study in a result file. `kept`: a reading.kept.Kept."""
-    made_of = ("study", kept.of_file(file)) if file.is_file() else ()
-    found = kept.get(*made_of) if made_of else None
-    if found is None:
-        found = results.read_study(file)
-        kept.keep(found, *made_of)
-    return replace(found, file=file)
+def read(files, kept):
+    """The studies in result files. `kept`: a reading.kept.Kept."""
+    made_of = [("study", kept.of_file(file)) if file.is_file() else () for file in files]
+    found = _made([(results.read_study, file) for file in files], made_of, kept, processes.results)
+    return [replace(study, file=file) for study, file in zip(found, files)]
 
 
 def drawn(studies, benches, kept, formats=()):
     """The figures of studies and benches, each with files of these `formats`."""
     tasks = list(_tasks(studies, benches))
     made_of = [(draw.__module__, *map(kept.of_file, files), more, formats) for files, (draw, _, *more) in tasks]
-    found = [kept.get(*one) for one in made_of]
-    missing = [i for i, one in enumerate(found) if one is None]
-    with closing(processes.in_turn([tasks[i][1] for i in missing], len(missing), formats)) as in_turn:
-        for i, one in zip(missing, in_turn):
-            found[i] = one
-            kept.keep(one, *made_of[i])
+    found = _made([task for _, task in tasks], made_of, kept, partial(processes.in_turn, formats=formats))
     n = len(studies)
     return Drawn(dict(zip((study.name for study in studies), found)), [one for group in found[n:-1] for one in group],
                  found[-1])
+
+
+def _made(tasks, made_of, kept, make):
+    """What each task gives, kept or made by `make`; `made_of`: of each, what it depends on."""
+    found = [kept.get(*one) for one in made_of]
+    missing = [i for i, one in enumerate(found) if one is None]
+    with closing(make([tasks[i] for i in missing], len(missing))) as in_turn:
+        for i, one in zip(missing, in_turn):
+            found[i] = one
+            kept.keep(one, *made_of[i])
+    return found
 
 
 def _tasks(studies, benches):

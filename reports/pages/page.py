@@ -46,7 +46,8 @@ def _contents(studies, drawn, benches, seeded, compared):
     first = next(iter(drawn.studies.get(top.name, [])), None) if top else None
     rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
     inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
-    sections = {question: _answers(question, found, rest, drawn.studies, studies) for question in questions.ALL}
+    statements = claims.statements(studies)
+    sections = {question: _answers(question, found, rest, drawn.studies, statements) for question in questions.ALL}
     if curves or compared:
         sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, benches, drawn.benches, compared)
     if seeded is not None:
@@ -56,7 +57,7 @@ def _contents(studies, drawn, benches, seeded, compared):
     nouns = _count(studies)
     return dict(
         title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(svg.faces(svg.letters(inline))),
-        script=markup.script(), verdicts=verdicts(found, curves, seeded), outcome=markup.outcome(
+        script=markup.script(), verdicts=verdicts(found, curves, seeded, statements[0]), outcome=markup.outcome(
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
         departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,
@@ -69,22 +70,22 @@ def _contents(studies, drawn, benches, seeded, compared):
         compared_absent=comparison.section(None) if compared is None and not sections[questions.RUN_TIME] else "")
 
 
-def _answers(question, found, rest, drawings, studies):
-    parts = []
-    if question in (questions.THEOREMS, questions.LEMMAS):
-        parts += _statements(question, studies, drawings)
-    return markup.joined((*parts, *(article(study, rest.get(study.name, [])) for study in found[question])))
+def _answers(question, found, rest, drawings, statements):
+    """Statement by statement, and then the studies of a question."""
+    return markup.joined((*_statements(question, found, drawings, statements),
+                          *(article(study, rest.get(study.name, [])) for study in found[question])))
 
 
-def _statements(question, studies, drawings):
-    """The statements of the paper that belong to a question; below lemmas also what no statement of the paper says."""
-    of_paper, further = claims.statements(studies)
+def _statements(question, found, drawings, statements):
+    """The statements of the paper that belong to a question, and folded those of its studies that are of no paper."""
+    of_paper, further = statements
     here = [one for one in of_paper if questions.of_statement(one) is question]
-    parts = [claims.table(here, drawings, question.title)] if here else []
-    if further and question is questions.LEMMAS:
-        said = Markup("Further findings {}").format(markup.note(markup.several(len(further), "statement")))
-        parts.append(tables.fold(said, claims.table(further, drawings, "Further findings")))
-    return parts
+    if here:
+        yield claims.table(here, drawings, question.title)
+    there = [one for one in further if one.entries[0].study in found[question]]
+    if there:
+        said = Markup("Statement by statement {}").format(markup.note(markup.several(len(there), "statement")))
+        yield tables.fold(said, claims.table(there, drawings, f"{question.title}: statements"))
 
 
 def _count(studies):

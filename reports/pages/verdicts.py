@@ -18,9 +18,9 @@ class Verdict:
     picture: str
 
 
-def verdicts(found, curves, seeded):
+def verdicts(found, curves, seeded, statements):
     """A verdict for each question with results. `found`: of questions.by_question(); `curves`: of pages.run_time;
-    `seeded`: mutants.read()."""
+    `seeded`: mutants.read(); `statements`: of the paper."""
     rows = []
     for question, studies in found.items():
         if question is questions.RUN_TIME and curves:
@@ -28,7 +28,8 @@ def verdicts(found, curves, seeded):
         elif question is questions.MISTAKES and (studies or seeded):
             rows.append(_of_mistakes(studies, seeded or ()))
         elif studies:
-            rows.append(_of_studies(question, studies))
+            rows.append(_of_studies(question, studies, [one for one in statements
+                                                        if questions.of_statement(one) is question]))
     return rows
 
 
@@ -37,10 +38,12 @@ def departing(studies):
     return [entry for study in studies for entry in registry.entries(study) if not entry.as_expected]
 
 
-def _of_studies(question, studies):
+def _of_studies(question, studies, statements):
     entries, noun = questions.judged(studies)
     bad = sum(not entry.as_expected for entry in entries)
     said = f"{bad} of {len(entries)} {noun} not as expected" if bad else f"all {len(entries)} {noun} as expected"
+    if statements:
+        said = f"{markup.several(len(statements), 'statement')}; {said}"
     tested = [entry.finding for entry in entries if not entry.control and not entry.refuted and not entry.unsharp]
     orders = [(one.observed_order, one.theory_order) for one in tested
               if one.theory_order > 0 and math.isfinite(one.observed_order) and one.promised == "confirmed"]

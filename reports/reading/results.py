@@ -43,7 +43,7 @@ def read_study(path):
 
 
 def _study(path, file):
-    root = Stored(file)
+    root = Stored(file["/"])
     found = root.attribute("format", "")
     if found != FORMAT:
         raise ResultError(f'{path}: format = "{found}"; not a result file of acstudy; '
@@ -73,12 +73,9 @@ def _finding(group):
     points = group.record(Points, label=labels)
     if labels and len(labels) != len(points):
         raise ValueError(f"{group.group.name}: {len(labels)} labels, but {len(points)} points")
-    surface = group.attributes if group.attribute("test") == "surface" else {}
-    return group.record(
-        Finding, points=points, coordinates=group.group_of("coordinates").attributes, series=None,
-        also_expected=tuple(group.attribute("also_expected", "").split()),
-        fit={name.removeprefix("surface_"): float(value) for name, value in sorted(surface.items())
-             if name.startswith("surface_")})
+    return group.record(Finding, points=points, coordinates=group.group_of("coordinates").attributes, also_expected=tuple(group.attribute("also_expected", "").split()),
+                        series=None, fit={name.removeprefix("surface_"): float(value) for name, value in
+                                          sorted(group.attributes.items()) if name.startswith("surface_")})
 
 
 def _of_series(group, scene):

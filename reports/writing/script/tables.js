@@ -15,8 +15,14 @@ class Sheet {
     this.follow();
   }
 
+  // The heads of a table are one stop of the tab key; arrow keys go from one to the next.
   addButton(head, column) {
-    const button = element("button", { type: "button", onclick: () => this.sortBy(column) });
+    const button = element("button", { type: "button", tabindex: column ? -1 : 0, onclick: () => this.sortBy(column),
+      onkeydown: (event) => {
+        const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+        const next = step && this.heads[column + step];
+        if (next) next.querySelector("button").focus();
+      } });
     button.append(...head.childNodes);
     head.append(button);
   }
@@ -103,7 +109,7 @@ function setUpTables(within) {
 
 // What scrolls sideways can be reached by keys, and nothing else takes a stop.
 function letScroll(within) {
-  for (const box of within.querySelectorAll(".scroll")) {
+  for (const box of within.querySelectorAll(".scroll, .card:not([role=group])")) {
     if (box.scrollWidth > box.clientWidth + 1) {
       box.tabIndex = 0;
       box.setAttribute("role", "region");

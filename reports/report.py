@@ -80,7 +80,7 @@ def against(folder, files, earlier):
     for name, of_run in (*((name, _results(Path(name))) for name in earlier), (str(folder), files)):
         if not of_run:
             raise UsageError(f"{name}: no result file (*.h5) in it; name a folder that acstudy run has written to")
-        studies = [making.read(file, kept) for file in of_run]
+        studies = making.read(of_run, kept)
         _refuse_clashes(studies)
         runs.append(history.Run(name, tuple(studies)))
     _write(folder / history.FILE, history.html(runs).encode("utf-8"))

@@ -7,6 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
+from tests.browser import BrowserTest, axe, needs_browser
 from tests.result_files import ReportTest, finding, series, write
 
 from pages import history as page
@@ -17,13 +18,15 @@ def other_path(path, **changes):
     return series(path=path, **changes)
 
 
-class History(ReportTest):
+class RunsTest(ReportTest):
     def run_of(self, name, *all_series, study="one", **more):
         """A run with one study."""
         folder = self.folder / name
         folder.mkdir(exist_ok=True)
         return page.Run(name, (results.read_study(write(folder, study, *all_series, **more)),))
 
+
+class History(RunsTest):
     def changes(self, *runs):
         return [line.change for line in history.lines([run.studies for run in runs])]
 
@@ -118,6 +121,41 @@ class History(ReportTest):
                 code, out, err = self.run_report(*arguments)
                 self.assertEqual((code, out), (2, ""))
                 self.assertIn(said, err)
+
+
+@needs_browser
+class InABrowser(BrowserTest, RunsTest):
+    def setUp(self):
+        super().setUp()
+        paths = ["delta = 4h", "delta = 2h", "delta = h", "delta = h^2", "delta = sqrt(h)", "delta = 8h", "delta = 9h"]
+        runs = [self.run_of("a", *map(other_path, paths), other_path("delta = 3h")),
+                self.run_of("b", *(other_path(path, error_linf=1.3 * series()["h"] * (i + 1)) for i, path in enumerate(paths)),
+                            other_path("delta = 3h", verdict="below", as_expected=0))]
+        self.page = self.folder / "history.html"
+        self.page.write_text(page.html(runs), encoding="utf-8")
+
+    def test_it_opens_without_a_complaint_and_its_tables_are_sorted_and_filtered(self):
+        self.open(self.page, "#&sort Numbers that changed=4 down&find Numbers that changed=fig")
+        self.assertEqual(self.errors(), [])
+        rows = "return [...document.querySelector(\"table[aria-label='Numbers that changed']\").tBodies[0].rows]"
+        self.assertEqual(self.run_script(rows + ".filter(row => !row.hidden).length"), 0)
+        self.open(self.page, "#&sort Numbers that changed=4 down")
+        self.assertEqual(self.run_script(rows + ".map(row => row.cells[4].textContent)"), ["7", "6", "5", "4", "3", "2"])
+
+    def test_it_fits_a_phone_and_everybody(self):
+        text = axe()
+        for media in (dict(), dict(prefers_color_scheme="dark"), dict(width=375)):
+            with self.subTest(media):
+                self.open(self.page, **media)
+                width = media.get("width", 1300)
+                self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), width)
+                self.run_script("document.querySelectorAll('details').forEach((one) => { one.open = true; });")
+                self.settle()
+                self.run_script(text)
+                found = self.browser.execute_async_script(
+                    "const done = arguments[0]; axe.run(document, {resultTypes: ['violations']}).then(one => done("
+                    "one.violations.filter(v => ['serious', 'critical'].includes(v.impact)).map(v => v.id)))")
+                self.assertEqual(found, [])
 
 
 if __name__ == "__main__":

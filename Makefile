@@ -9,6 +9,7 @@ REPORT  = $(OUT)/index.html
 
 acstudy = "$(BUILD)/acstudy"
 setup   = @scripts/setup.sh
+stage   = scripts/stage.sh
 
 # One build folder for all targets: the tests are added to it, and stay, once they have been asked for.
 configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release $(CMAKE_ARGS)
@@ -31,11 +32,14 @@ help:  ## lists the targets
 # On a fresh machine the packages that draw are installed while the C++ compiles: half a minute less.
 # A verdict that departs (1) or a run that failed (3) is to be seen in the report too.
 studies:  ## runs every study and draws every figure, from nothing
-	$(setup) build
-	@$(MAKE) --no-print-directory -j 2 compiled drawable
-	@status=0; $(acstudy) run studies/*.toml --out "$(OUT)" --jobs $(JOBS) || status=$$?; \
+	@echo "acstudy: from nothing this takes some 10 minutes on two processors and 1 GB of disk, most of it packages;" \
+		"the next time what has changed since"
+	@$(stage) installed scripts/setup.sh build
+	@$(stage) built $(MAKE) --no-print-directory -j 2 compiled drawable
+	@status=0; $(stage) run $(acstudy) run studies/*.toml --out "$(OUT)" --jobs $(JOBS) || status=$$?; \
 	case $$status in 0|1|3) ;; *) exit $$status ;; esac; \
-	python=$$(scripts/find-python.sh) && echo "acstudy: drawing with $$python" && "$$python" reports/report.py "$(OUT)" || exit; \
+	python=$$(scripts/find-python.sh) && echo "acstudy: drawing with $$python" && \
+	$(stage) drawn "$$python" reports/report.py "$(OUT)" || exit; \
 	echo "acstudy: the report is $(REPORT)"; exit $$status
 
 test:  ## builds and runs every test
@@ -54,13 +58,14 @@ mutants:  ## tests the tests: each mistake planted in a copy of the sources has 
 	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$(scripts/find-python.sh)" reports/report.py "$(OUT)" || \
 		[ $$status -ne 0 ] || status=4; fi; exit $$status
 
-bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some minutes)
+bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some 6 minutes)
+	@echo "acstudy: some 6 minutes; a machine that does something else meanwhile is no machine to time on"
 	@$(acstudy) bench $(bench_studies) --out "$(OUT)/bench" --fresh
 	@$(acstudy) bench studies/bench/scaling-threads.toml --threads $(THREADS) --out "$(OUT)/bench-threads" --fresh
 	$(setup) report
 	@python=$$(scripts/find-python.sh) && "$$python" reports/bench_tables.py "$(OUT)" && "$$python" reports/report.py "$(OUT)"
 
-compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and second by second (some 5 minutes)
+compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and second by second (5 minutes; COMPARE=--quick: 45 s)
 	$(setup) report
 	@python=$$(scripts/find-python.sh) && \
 	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \

@@ -3,6 +3,7 @@
 
 OUT_DIR is the folder of the results, with the benches in OUT_DIR/bench*/bench.json. The tables: seconds to reach an
 error, the law of cost, the prices of work, threads. Where the time goes is on the page of the report.
+What is missing of them, as on a disturbed machine, is said on stderr.
 Exit codes: 0 done; 2 no bench, or not one.
 """
 
@@ -29,6 +30,8 @@ def main(arguments):
         return _fail(f"{folder}: no bench ({bench_results.PLACES}) in it; run make bench first, or name the folder")
     for title, header, rows, note in tables.tables(benches):
         print(f"**{title}**\n\n{markdown(header, rows)}\n" + (f"{note}\n" if note else ""))
+    for line in tables.left_out(benches):
+        print(f"bench_tables.py: {line}", file=sys.stderr)
     print(measured_by(benches))
     return 0
 

@@ -238,9 +238,7 @@ if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
     else
         packages=$(echo "$lacking" | column 4)
         say "installing with apt-get: $packages (SETUP=off never installs)"
-        start=$(date +%s)
         install_packages "$packages" || { say "apt-get could not install: $packages" && exit 4; }
-        say "installed in $(($(date +%s) - start)) s"
         lacking=$(echo "$wanted" | missing packages)
         [ -n "$lacking" ] || exit 0
         explain_too_old

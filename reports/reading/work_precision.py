@@ -9,6 +9,7 @@ TARGETS = (1e-2, 3e-3, 1e-3)
 # A time takes no part in the law of cost if its deviation is a larger part of the median, or if it is shorter: there
 # the set-up of a run shows.
 NOISE, SHORTEST = 0.05, 2e-3
+DISTURBED = 0.2     # the part of the times that deviate so on a machine which does something else as well
 FARTHEST = 4.0      # times the finest N: how far errors are extrapolated
 RESAMPLES = 2000
 
@@ -54,6 +55,14 @@ def frontier(cost, error):
             efficient[i] = True
             best = error[i]
     return efficient
+
+
+def disturbed(curves):
+    """(how many times of cases have too large a deviation to take part in the law of cost, how many there are)."""
+    seconds, deviation = (np.concatenate([of(curve) for curve in curves] or [np.empty(0)])
+                          for of in (lambda c: c.seconds.median, lambda c: c.seconds.deviation))
+    timed = np.isfinite(seconds) & (seconds >= SHORTEST)
+    return int(np.sum(timed & (deviation > NOISE * seconds))), int(np.sum(timed))
 
 
 @dataclass(frozen=True)

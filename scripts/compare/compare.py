@@ -23,6 +23,8 @@ import summary
 
 FORMAT = "acstudy comparison 1"
 FILE = "compare.json"
+# of three rounds
+HOW_LONG = {"quick": "some 45 s", "default": "some 5 minutes", "all": "some 30 minutes"}
 LEVELS = {"quick": selection.coarsest, "default": selection.representative, "all": selection.every}
 
 
@@ -40,6 +42,7 @@ def main(arguments=None):
         if options.table:
             found = read_comparison(options.out / FILE)
         else:
+            say(f"{HOW_LONG[options.level]} for three rounds, less where a program is not installed")
             with tempfile.TemporaryDirectory() as folder:
                 found = compare(options, Path(folder))
             write(options.out / FILE, found)
@@ -67,7 +70,7 @@ def read_options(arguments):
     parser = argparse.ArgumentParser(prog="compare.py", description=__doc__.partition("\n")[0])
     level = parser.add_mutually_exclusive_group()
     level.add_argument("--quick", dest="level", action="store_const", const="quick", default="default",
-                       help="the coarsest level of each path, in seconds")
+                       help="the coarsest level of each path; some 45 s")
     level.add_argument("--all", dest="level", action="store_const", const="all",
                        help="every case of the figures; some ten minutes per round")
     level.add_argument("--table", action="store_true", help="print the tables of the last comparison; runs nothing")

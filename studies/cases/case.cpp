@@ -31,7 +31,9 @@ std::string Case::key() const {
 
 double Case::estimated_work() const {
   constexpr double of_particle = 10.0;
-  return static_cast<double>(N) * static_cast<double>(steps) * static_cast<double>(integrator->stage_count()) *
+  // The rows allow about the steps of particles that no pair of which is close.
+  const double taken = static_cast<double>(steps) * (step.bound == StepRule::Bound::rows ? start.smallest_gap : 1.0);
+  return static_cast<double>(N) * std::max(1.0, taken) * static_cast<double>(integrator->stage_count()) *
          (scheme.model->pair_cost * std::max(1.0, delta / h) + of_particle);
 }
 

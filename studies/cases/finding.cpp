@@ -11,6 +11,18 @@ namespace acstudy {
 
 namespace {
 
+/// Three significant digits, or as many, up to `most`, as tell a value from the bounds that it is not equal to.
+int digits_apart(double value, std::initializer_list<double> bounds, int most) {
+  int digits = 3;
+  for (const double bound : bounds) {
+    while (digits < most && value != bound &&
+           fmt::format("{:.{}g}", value, digits) == fmt::format("{:.{}g}", bound, digits)) {
+      ++digits;
+    }
+  }
+  return digits;
+}
+
 Judgement judge_bounds(const std::vector<Point>& points) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Judgement judgement{};
@@ -38,12 +50,15 @@ Judgement judge_bounds(const std::vector<Point>& points) {
   const std::string where = (worst->label.empty() ? "" : ", " + worst->label) +
                             (worst->N > 0 ? fmt::format(", N = {}", worst->N) : "") +
                             (std::isnan(worst->delta) ? "" : fmt::format(", delta = {:.3g}", worst->delta));
-  const std::string demanded = std::isinf(worst->lower) ? fmt::format("at most {:.6g}", worst->upper)
+  const bool holds = judgement.verdict == Verdict::holds;
+  const int digits = digits_apart(worst->value, {worst->lower, worst->upper}, holds ? 6 : 17);
+  const auto text = [&](double value) { return fmt::format("{:.{}g}", value, digits); };
+  const std::string demanded = std::isinf(worst->lower) ? "at most " + text(worst->upper)
                                : std::isinf(worst->upper)
-                                   ? fmt::format("at least {:.6g}", worst->lower)
-                                   : fmt::format("in [{:.6g}, {:.6g}]", worst->lower, worst->upper);
-  judgement.reason = fmt::format("{} of {}: {:.6g}{}, {}", judgement.verdict == Verdict::holds ? "closest" : "worst",
-                                 points.size(), worst->value, where, demanded);
+                                   ? "at least " + text(worst->lower)
+                                   : fmt::format("in [{}, {}]", text(worst->lower), text(worst->upper));
+  judgement.reason = fmt::format("{} of {}: {}{}, {}", holds ? "closest" : "worst", points.size(), text(worst->value),
+                                 where, demanded);
   return judgement;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// The commands as data. How an argument is read and a help text is set is `command_line.cpp`'s.
+/// The commands as data. How arguments are read is `command_line.cpp`'s, how help texts are set `manual.cpp`'s.
 
 #include <cstdint>
 #include <functional>
@@ -28,12 +28,23 @@ struct Option {
   std::vector<std::string> needs = {}, excludes = {};   ///< options above it
 };
 
+/// A command line that shows what a command is for.
+struct Example {
+  std::string line;  ///< behind the name of the program
+  std::string does;
+};
+
 /// A command: its options, and what it does once they are read. The targets live as long as `run` does.
 struct Command {
   std::string name, help;
   std::vector<Option> options;
   std::function<int(const std::string& command_line)> run;  ///< returns an `Exit`. @throws InputError, StoreError
+  std::vector<Example> examples;                            ///< two at least
 };
+
+/// -v and --quiet, which mean the same wherever they stand; the second is to be listed behind the first.
+Option verbose_option(bool* target, const std::string& help);
+Option quiet_option(bool* target, const std::string& help);
 
 Command run_command();
 Command check_command();
@@ -42,6 +53,9 @@ Command fit_command();
 Command bench_command();
 Command explain_command();
 Command list_command();
+/// Those that print what is known of all commands. @param commands  with these; has to live as long as they do
+Command completion_command(const std::vector<Command>& commands);
+Command man_command(const std::vector<Command>& commands);
 
 /// Reads the command line, runs the command that it names, and returns the exit code. What goes wrong is one line on
 /// stderr.

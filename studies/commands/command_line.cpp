@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,7 +13,10 @@
 #include "mms/expression.hpp"
 #include "studies/commands/command.hpp"
 #include "studies/commands/exit.hpp"
+#include "studies/commands/manual.hpp"
+#include "studies/commands/nearest.hpp"
 #include "studies/commands/say.hpp"
+#include "studies/commands/terminal.hpp"
 #include "studies/reading/input_error.hpp"
 #include "studies/storing/store_error.hpp"
 
@@ -31,6 +35,16 @@ CLI::Validator real_range(double low, double high) {
           ""};
 }
 
+/// One of some words. CLI::IsMember does not know which is nearest.
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](const std::string& text) {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+            return fmt::format("{} is none of {}{}", in_quotes(text), fmt::join(words, ", "),
+                               did_you_mean(text, words));
+          },
+          ""};
+}
+
 template <class T>
 constexpr bool is_list = requires(T value) {
   value.push_back({});
@@ -44,13 +58,11 @@ void add_option(CLI::App& app, const Option& option) {
           return app.add_flag(option.name, *target, option.help);
         } else {
           CLI::Option* const one = app.add_option(option.name, *target, option.help);
-          if constexpr (requires { target->has_value(); }) return one;
           if constexpr (is_list<T>) {
-            if (option.name.starts_with("--")) one->allow_extra_args(false);
+            if (!is_positional(option)) one->allow_extra_args(false);
             if constexpr (!std::is_same_v<typename T::value_type, std::string>) one->delimiter(',');
-            if (target->empty()) return one;
           }
-          return one->capture_default_str();
+          return one;
         }
       },
       option.target);
@@ -62,25 +74,55 @@ void add_option(CLI::App& app, const Option& option) {
     added->check(real ? real_range(low, high)
                       : CLI::Range(static_cast<std::int64_t>(low), static_cast<std::int64_t>(high)));
   }
-  if (!option.one_of.empty()) added->check(CLI::IsMember(option.one_of));
+  if (!option.one_of.empty()) added->check(one_of(option.one_of));
   for (const std::string& other : option.needs) added->needs(app.get_option(other));
   for (const std::string& other : option.excludes) added->excludes(app.get_option(other));
 }
 
-/// Says what is wrong with a command line.
+std::vector<std::string> option_names(const Command& command) {
+  std::vector<std::string> names{"--help", "-h"};
+  for (const Option& option : command.options) {
+    if (is_positional(option)) continue;
+    for (std::string& name : spellings(option)) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+/// What is wrong with the arguments of a command.
+std::string mistake(const Command& command, const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+  const std::vector<std::string> left = app.remaining();
+  const std::string argument = left.empty() ? "" : left.front().substr(0, left.front().find('='));
+  if (!argument.starts_with('-')) return error.what();
+  return fmt::format("unknown option {} of {}{}", in_quotes(argument), command.name,
+                     did_you_mean(argument, option_names(command)));
+}
+
+/// Says what is wrong with a command line, and where help is.
+int refuse(const std::string& message, const std::string& command = "") {
+  say(fmt::format("{}{} see acstudy {}--help", message, message.ends_with('?') ? "" : ";",
+                  command.empty() ? "" : command + " "));
+  return bad_input;
+}
+
 int refuse(const CLI::App& app, const CLI::ParseError& error, const std::vector<Command>& commands, const char* first) {
   const auto used = app.get_subcommands();
-  if (!used.empty() || first == nullptr) {
-    say(fmt::format("{}; see acstudy {}--help", error.what(), used.empty() ? "" : used.front()->get_name() + " "));
-    return bad_input;
+  if (first == nullptr) return refuse(error.what());
+  if (!used.empty()) {
+    const std::string& name = used.front()->get_name();
+    const auto named = [&](const Command& command) { return command.name == name; };
+    return refuse(mistake(*std::find_if(commands.begin(), commands.end(), named), *used.front(), error), name);
+  }
+  if (*first == '-') {
+    const std::string nearest = did_you_mean(first, {"--help", "--version"});
+    return refuse(fmt::format("unknown option {}{}", in_quotes(first),
+                              nearest.empty() ? "; options stand behind a command" : nearest));
   }
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.name);
-  const std::string last = names.back();
-  names.pop_back();
-  say(fmt::format("unknown command {}; write {} or {}; see acstudy --help", in_quotes(first), fmt::join(names, ", "),
-                  last));
-  return bad_input;
+  const std::string nearest = did_you_mean(first, names);
+  return refuse(fmt::format("unknown command {}{}", in_quotes(first),
+                            nearest.empty() ? fmt::format("; write one of {}", fmt::join(names, ", ")) : nearest));
 }
 
 /// Runs a command; what it throws becomes a line and an exit code.
@@ -104,17 +146,28 @@ int run(const Command& command, int argc, const char* const* argv) {
 
 }  // namespace
 
+Option verbose_option(bool* target, const std::string& help) {
+  return {.name = "-v,--verbose", .target = target, .help = help};
+}
+
+Option quiet_option(bool* target, const std::string& help) {
+  return {.name = "-q,--quiet", .target = target, .help = help, .excludes = {"--verbose"}};
+}
+
 int run_command_line(const std::vector<Command>& commands, int argc, const char* const* argv) {
-  CLI::App app(
-      "Verification and convergence studies of asymptotically compatible particle schemes for linear advection.");
+  CLI::App app;
   app.set_version_flag("--version", fmt::format("acstudy {}", build_info::version));
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done and all as expected, 1 a verdict departs, 2 bad input (nothing run or written),\n"
-      "3 a run failed numerically, 4 the machine failed it, 130 interrupted.");
+  const std::size_t width = columns(Stream::out);
+  const auto prints = [](CLI::App& whom, std::string text) {
+    whom.formatter_fn(
+        [text = std::move(text)](const CLI::App*, const std::string&, CLI::AppFormatMode) { return text; });
+  };
+  prints(app, help_text(commands, width));
   for (const Command& command : commands) {
     CLI::App* const added = app.add_subcommand(command.name, command.help);
     for (const Option& option : command.options) add_option(*added, option);
+    prints(*added, help_text(command, width));
   }
   try {
     app.parse(argc, argv);

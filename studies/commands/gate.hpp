@@ -3,6 +3,8 @@
 /// @file
 /// What the gates say, in every form in which it is read: a table, JUnit XML, GitHub annotations.
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,14 @@ struct Row {
   bool passes;
 };
 
+std::size_t departing_in(std::span<const Row> rows);
+
 /// A header and a line per row, columns aligned; a row that departs goes on with what was expected, and the reason.
-std::string table_text(const std::vector<Row>& rows);
+/// Where the columns do not fit into `width` characters, the record of each row in their place.
+std::string table_text(const std::vector<Row>& rows, std::size_t width);
+
+/// A row in two lines or more: its study and name, then what was observed, the verdict, and why it departs, if so.
+std::string record_text(const Row& row, std::size_t width);
 
 /// "N gates, M depart"
 std::string count_text(const std::vector<Row>& rows);

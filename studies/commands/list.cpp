@@ -9,16 +9,17 @@
 
 namespace acstudy {
 
-void print_list(const std::string& what) {
+std::string list_text(const std::string& what) {
+  std::string out;
   const auto heading = [&](const char* title) {
-    if (what.empty()) fmt::print("{}:\n", title);
+    if (what.empty()) out += fmt::format("{}:\n", title);
   };
   const char* indent = what.empty() ? "  " : "";
   if (what.empty() || what == "schemes") {
     heading("schemes");
     for (const ModelCard* model : model_cards()) {
       const Theorems& equations = model->equations;
-      fmt::print(
+      out += fmt::format(
           "{0}model = {1}, divergence = \"local\"     {2}, scheme 1 {3}; {4} where particles stand still\n"
           "{0}model = {1}, divergence = \"nonlocal\"  {2}, scheme 2 {5}\n",
           indent, model->number, model->name, equations.local, equations.standing, equations.nonlocal);
@@ -26,27 +27,30 @@ void print_list(const std::string& what) {
   }
   if (what.empty() || what == "kernels") {
     heading("kernels");
-    for (const NamedKernel& kernel : named_kernels) fmt::print("{}{:<35} {}\n", indent, kernel.written, kernel.meaning);
+    for (const NamedKernel& kernel : named_kernels)
+      out += fmt::format("{}{:<35} {}\n", indent, kernel.written, kernel.meaning);
   }
   if (what.empty() || what == "integrators") {
     heading("integrators");
     for (const Integrator& integrator : integrators) {
-      fmt::print("{}{:<35} order {}, {} stage(s){}\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order,
-                 integrator.stage_count(), integrator.implicit() ? ", implicit" : "");
+      out += fmt::format("{}{:<35} order {}, {} stage(s){}\n", indent, fmt::format("\"{}\"", integrator.name),
+                         integrator.order, integrator.stage_count(), integrator.implicit() ? ", implicit" : "");
     }
   }
   if (what.empty() || what == "scenes") {
     heading("scenes");
     for (const SceneText& scene : named_scenes()) {
-      fmt::print("{}{:<35} period {}, T = {}, c = {}, b = {}, u = {}\n", indent, fmt::format("\"{}\"", scene.name),
-                 scene.period, scene.T, scene.c, scene.b.value_or("0"), scene.u);
+      out +=
+          fmt::format("{}{:<35} period {}, T = {}, c = {}, b = {}, u = {}\n", indent, fmt::format("\"{}\"", scene.name),
+                      scene.period, scene.T, scene.c, scene.b.value_or("0"), scene.u);
     }
   }
   if (what.empty() || what == "kinds") {
     heading("kinds");
     for (const Kind* kind : kinds)
-      fmt::print("{}{:<35} {}\n", indent, fmt::format("\"{}\"", kind->name), kind->meaning);
+      out += fmt::format("{}{:<35} {}\n", indent, fmt::format("\"{}\"", kind->name), kind->meaning);
   }
+  return out;
 }
 
 }  // namespace acstudy

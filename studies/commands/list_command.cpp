@@ -5,6 +5,7 @@
 #include "studies/commands/command.hpp"
 #include "studies/commands/exit.hpp"
 #include "studies/commands/list.hpp"
+#include "studies/commands/terminal.hpp"
 #include "studies/reading/input_error.hpp"
 
 namespace acstudy {
@@ -21,7 +22,7 @@ int list(const ListRequest& request) {
     throw InputError(
         fmt::format("list {} {}; only keys are of a kind: write keys {}; see acstudy list --help", what, kind, kind));
   }
-  what == "keys" ? print_keys(kind) : print_list(what);
+  fmt::print("{}", fitted(what == "keys" ? keys_text(kind) : list_text(what)));
   return done;
 }
 
@@ -36,7 +37,9 @@ Command list_command() {
             .help = "schemes, kernels, integrators, scenes or kinds, all of them by default; keys: of a study file",
             .one_of = {"schemes", "kernels", "integrators", "scenes", "kinds", "keys"}},
            {.name = "KIND", .target = &request->kind, .help = "with keys: those of studies of this kind"}},
-          [request](const std::string&) { return list(*request); }};
+          [request](const std::string&) { return list(*request); },
+          {{"list kernels", "the kernels, as a study writes them"},
+           {"list keys convergence", "the keys of a convergence study, table by table"}}};
 }
 
 }  // namespace acstudy

@@ -35,7 +35,8 @@ void add(std::vector<Entry>& entries, const TableKeys& table, std::string_view k
 
 }  // namespace
 
-void print_keys(const std::string& kind) {
+std::string keys_text(const std::string& kind) {
+  std::string out;
   std::vector<Entry> entries;
   std::vector<std::string_view> names;
   add(entries, study_table, kind.empty() ? "every kind" : kind);
@@ -49,14 +50,16 @@ void print_keys(const std::string& kind) {
         fmt::format("no kind of study is named {}; write one of {}", in_quotes(kind), fmt::join(names, ", ")));
   }
   for (const Entry& entry : entries) {
-    if (&entry != &entries.front()) fmt::print("\n");
-    for (const auto& [title, kinds_that_have_it] : entry.headings) fmt::print("{}  {}\n", title, kinds_that_have_it);
+    if (&entry != &entries.front()) out += fmt::format("\n");
+    for (const auto& [title, kinds_that_have_it] : entry.headings)
+      out += fmt::format("{}  {}\n", title, kinds_that_have_it);
     for (const Key& key : entry.keys) {
       const bool needed = key.left_out.substr(0, 6) == "needed";
-      fmt::print("  {:<18} {:<24} {}; {}{}\n", key.name, key.written, key.meaning,
-                 needed ? "" : "left out: ", key.left_out);
+      out += fmt::format("  {:<18} {:<24} {}; {}{}\n", key.name, key.written, key.meaning,
+                         needed ? "" : "left out: ", key.left_out);
     }
   }
+  return out;
 }
 
 }  // namespace acstudy

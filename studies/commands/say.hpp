@@ -3,12 +3,11 @@
 /// @file
 /// Messages to the user.
 
-#include <cstdio>
 #include <string>
 
 namespace acstudy {
 
-/// A line on stderr; whether anybody can read it must not matter to the exit code.
-inline void say(const std::string& message) { std::fputs(("acstudy: " + message + "\n").c_str(), stderr); }
+/// A line on stderr, on a terminal wrapped; whether anybody can read it must not matter to the exit code.
+void say(const std::string& message);
 
 }  // namespace acstudy

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -51,14 +53,38 @@ void require_names(Study& study) {
 
 }  // namespace
 
-Study parse_study(const std::string& text, const std::string& file) {
-  toml::table document;
+namespace {
+
+/// Where the value of the line "key = value" begins, and the value, if it is an expression or a word that is not in
+/// quotes; else an empty one.
+std::pair<std::size_t, std::string> unquoted_value(std::string_view text, std::size_t line) {
+  for (; line > 1 && text.find('\n') != std::string_view::npos; --line) text.remove_prefix(text.find('\n') + 1);
+  text = text.substr(0, text.find_first_of("#\r\n"));
+  const std::size_t begin = text.find_first_not_of(" \t", std::min(text.find('='), text.size() - 1) + 1);
+  if (begin == std::string_view::npos) return {};
+  std::string value(text.substr(begin, text.find_last_not_of(" \t") + 1 - begin));
+  const bool other = value.find_first_of("'[{") == 0 || value.find('"') != std::string::npos;
+  const bool expression = std::any_of(value.begin(), value.end(), [](unsigned char c) {
+    return std::isalpha(c) != 0 || std::string_view("*/^()+").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  return other || !expression ? std::pair<std::size_t, std::string>{} : std::pair{begin, std::move(value)};
+}
+
+toml::table parse_toml(const std::string& text, const std::string& file) {
   try {
-    document = toml::parse(text, file);
+    return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
     const auto at = error.source().begin;
+    if (const auto [begin, value] = unquoted_value(text, at.line); !value.empty()) {
+      Place{file, at.line, static_cast<std::uint32_t>(begin + 1)}.fail(
+          fmt::format("{} stands without quotes; put it in quotes: {}", value, in_quotes(value)));
+    }
     Place{file, at.line, at.column}.fail("not TOML: " + std::string(error.description()));
   }
+}
+
+/// @throws MissingKey for the first key that is not there
+Study read_document(const toml::table& document, const std::string& text, const std::string& file) {
   const Table root(document, "the study", file);
 
   Study study;
@@ -100,7 +126,99 @@ Study parse_study(const std::string& text, const std::string& file) {
   return study;
 }
 
+/// A table of a document by its address.
+toml::table* find_table(toml::node& node, const toml::table* wanted) {
+  toml::table* const table = node.as_table();
+  if (table == wanted) return table;
+  toml::table* found = nullptr;
+  const auto look = [&](toml::node& inner) {
+    if (found == nullptr) found = find_table(inner, wanted);
+  };
+  if (table != nullptr) {
+    for (auto&& [key, inner] : *table) look(inner);
+  } else if (toml::array* const array = node.as_array()) {
+    for (toml::node& inner : *array) look(inner);
+  }
+  return found;
+}
+
+/// Writes the example where the key is missing, and leaves of it what is TOML. False if it cannot be.
+bool write_example(toml::table& document, MissingKey& missing) {
+  toml::table* const table = find_table(document, missing.table);
+  toml::table example;
+  std::string written = missing.example;
+  while (table != nullptr && example.empty()) {
+    try {
+      example = toml::parse(written);
+    } catch (const toml::parse_error&) {
+      const std::size_t words = written.rfind(", ");
+      if (words == std::string::npos) return false;
+      written.erase(words);
+    }
+  }
+  missing.example = written;
+  for (auto&& [key, value] : example) {
+    value.visit([&, &name = key](const auto& node) { table->insert(name, node); });
+  }
+  return !example.empty();
+}
+
+/// All keys that are missing, in one message.
+std::string text_of(const std::vector<MissingKey>& missing) {
+  std::vector<std::string> groups;
+  std::size_t keys = 0;
+  for (std::size_t i = 0; i < missing.size();) {
+    const MissingKey& first = missing[i];
+    if (first.title.empty()) {  // a table, whose keys are missing too
+      ++i;
+      continue;
+    }
+    std::vector<std::string> examples;
+    for (; i < missing.size() && missing[i].table == first.table; ++i) examples.push_back(missing[i].example);
+    keys += examples.size();
+    const bool elsewhere = first.place.line > 0 && first.place.line != missing.front().place.line;
+    groups.push_back(fmt::format("{} in {}{}", fmt::join(examples, " and "), first.title,
+                                 elsewhere ? fmt::format(" (line {})", first.place.line) : ""));
+  }
+  return fmt::format("{} keys are missing; write, for example, {}", keys, fmt::join(groups, ", "));
+}
+
+}  // namespace
+
+Study parse_study(const std::string& text, const std::string& file) {
+  toml::table document = parse_toml(text, file);
+  // With examples in place of missing keys the study is read on, up to those that are missing behind them.
+  std::vector<MissingKey> missing;
+  for (;;) {
+    try {
+      Study study = read_document(document, text, file);
+      if (missing.empty()) return study;
+      break;
+    } catch (const MissingKey& error) {
+      missing.push_back(error);
+      if (!write_example(document, missing.back())) break;
+    } catch (const InputError&) {
+      if (missing.empty()) throw;
+      break;
+    }
+  }
+  // A table that is missing is named without its keys, if nothing else is.
+  const MissingKey& first = missing.front();
+  const bool one_place = std::all_of(missing.begin() + 1, missing.end(), [&](const MissingKey& one) {
+    return first.title.empty() && one.title == first.example;
+  });
+  if (one_place) throw InputError(first.what());
+  std::stable_sort(missing.begin(), missing.end(), [](const MissingKey& a, const MissingKey& b) {
+    return a.place.line != 0 && (b.place.line == 0 || a.place.line < b.place.line);
+  });
+  missing.front().place.fail(text_of(missing));
+}
+
 Study read_study(const std::string& file) {
+  if (std::error_code none; std::filesystem::is_directory(file, none)) {
+    throw InputError(
+        fmt::format("{}: a folder; name its study files: {}", file, (std::filesystem::path(file) / "*.toml").string()));
+  }
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) {

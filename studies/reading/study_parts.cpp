@@ -62,8 +62,8 @@ std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution) {
   std::size_t offset = 0;
   if (named == nullptr) {
     if (table.find("c") == nullptr && table.find("u") == nullptr) {
-      table.place().fail(
-          "[scene] names no scene and gives no fields; write use = \"lee-du-2019\", or period, T, c and u");
+      table.miss("[scene] names no scene and gives no fields; write use = \"lee-du-2019\", or period, T, c and u",
+                 "use = \"lee-du-2019\"");
     }
     text.period = table.expression_text("period", "period = \"2*pi\"", offset);
     text.c = table.expression_text("c", "c = \"cos(2*x)/3\"", offset);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "studies/reading/input_error.hpp"
-
 namespace acstudy {
 
 namespace {
@@ -29,9 +27,11 @@ std::string on_one_line(const std::string& text) {
 
 }  // namespace
 
-void Place::fail(const std::string& message) const {
-  throw InputError(fmt::format("{}:{}:{}: {}", file, line, column, on_one_line(message)));
+std::string Place::text(const std::string& message) const {
+  return fmt::format("{}:{}:{}: {}", file, line, column, on_one_line(message));
 }
+
+void Place::fail(const std::string& message) const { throw InputError(text(message)); }
 
 void Table::allow(const std::vector<std::string>& known) const {
   for (const auto& [key, value] : table_) {
@@ -55,8 +55,12 @@ void Table::allow(std::span<const Key> keys, std::string_view inner) const {
 
 const toml::node& Table::need(std::string_view key, std::string_view example) const {
   const toml::node* const node = find(key);
-  if (node == nullptr) place().fail(fmt::format("{} has no \"{}\"; write, for example, {}", title_, key, example));
+  if (node == nullptr) miss(fmt::format("{} has no \"{}\"; write, for example, {}", title_, key, example), example);
   return *node;
+}
+
+void Table::miss(const std::string& message, std::string_view example) const {
+  throw MissingKey(place().text(message), &table_, title_, place(), std::string(example));
 }
 
 std::string Table::text(std::string_view key, const toml::node& node, std::string_view example) const {
@@ -117,7 +121,10 @@ const toml::array& Table::list(std::string_view key, std::string_view example) c
 std::vector<Table> Table::array_of_tables(std::string_view key) const {
   const toml::node* const node = find(key);
   const std::string title = fmt::format("[[{}]]", key);
-  if (node == nullptr) Place{file_, 1, 1}.fail(fmt::format("the study has no {}; add at least one", title));
+  if (node == nullptr) {
+    const Place at{file_, 1, 1};
+    throw MissingKey(at.text(fmt::format("the study has no {}; add at least one", title)), &table_, "", at, title);
+  }
   const toml::array* const array = node->as_array();
   if (array == nullptr || !array->is_homogeneous(toml::node_type::table)) {
     place(*node).fail(fmt::format("{} must be a list of tables; write {} above its keys", key, title));
@@ -129,7 +136,11 @@ std::vector<Table> Table::array_of_tables(std::string_view key) const {
 
 Table Table::sub_table(std::string_view key) const {
   const toml::node* const node = find(key);
-  if (node == nullptr) Place{file_, 1, 1}.fail(fmt::format("the study has no [{}]; add it", key));
+  if (node == nullptr) {
+    const Place at{file_, 1, 1};
+    const std::string title = fmt::format("[{}]", key);
+    throw MissingKey(at.text(fmt::format("the study has no {}; add it", title)), &table_, "", at, title);
+  }
   if (!node->is_table()) place(*node).fail(fmt::format("{0} must be a table; write [{0}] above its keys", key));
   return {*node->as_table(), fmt::format("[{}]", key), file_};
 }

@@ -11,6 +11,7 @@
 
 #include "mms/expression.hpp"
 #include "studies/models/key.hpp"
+#include "studies/reading/input_error.hpp"
 
 #define TOML_EXCEPTIONS 1
 #include <fmt/ranges.h>
@@ -25,7 +26,25 @@ struct Place {
 
   /// @throws InputError
   [[noreturn]] void fail(const std::string& message) const;
+  /// A message with its place, in one line.
+  std::string text(const std::string& message) const;
   Place shifted(std::size_t by) const { return {file, line, column + static_cast<std::uint32_t>(by)}; }
+};
+
+/// A key or a table is not there that has to be.
+class MissingKey : public InputError {
+ public:
+  MissingKey(const std::string& message, const toml::table* in, std::string its_title, Place at, std::string to_write)
+      : InputError(message),
+        table(in),
+        title(std::move(its_title)),
+        place(std::move(at)),
+        example(std::move(to_write)) {}
+
+  const toml::table* table;  ///< that it is missing in
+  std::string title;         ///< of this table; empty where a table of the study is missing
+  Place place;               ///< of this table
+  std::string example;       ///< what to write, as TOML, perhaps with words behind a comma
 };
 
 /// A table of the study file. Every reader fails with an InputError that names the place, the value and a remedy.
@@ -45,6 +64,8 @@ class Table {
 
   const toml::node* find(std::string_view key) const { return table_.get(key); }
   const toml::node& need(std::string_view key, std::string_view example) const;
+  /// Fails as a key that is needed and is not there does.
+  [[noreturn]] void miss(const std::string& message, std::string_view example) const;
 
   std::string text(std::string_view key, std::string_view example) const {
     return text(key, need(key, example), example);

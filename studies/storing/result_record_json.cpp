@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -148,6 +149,10 @@ FindingRecord read_series(const std::string& study, const json& one, std::size_t
 
 ResultRecord stated_json(const std::string& file) {
   constexpr const char* remedy = "name a .json file that acstudy run has written";
+  if (std::error_code none; std::filesystem::is_directory(file, none)) {
+    throw InputError(fmt::format("{}: a folder; name its result files: {}", file,
+                                 (std::filesystem::path(file) / "*.json").string()));
+  }
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) throw InputError(fmt::format("{}: cannot read the result file; {}", file, remedy));

@@ -53,13 +53,14 @@ class BadFile(ProgramTest):
         (self.folder / "folder").mkdir()
         self.write("good.toml", STUDY)
         self.write("empty.toml", "")
-        for name in ("missing.toml", "folder", "empty.toml"):
+        for name, why in (("missing.toml", "cannot read the study file; name an existing, non-empty file"),
+                          ("empty.toml", "cannot read the study file; name an existing, non-empty file"),
+                          ("folder", "a folder; name its study files: folder/*.toml"),
+                          ("folder/", "a folder; name its study files: folder/*.toml")):
             for files in ((name,), ("good.toml", name)):
                 for arguments in (("run", *files, "--out", "out"), ("explain", *files)):
                     with self.subTest(arguments):
-                        self.assert_bad_input(
-                            self.acstudy(*arguments),
-                            f"{name}: cannot read the study file; name an existing, non-empty file")
+                        self.assert_bad_input(self.acstudy(*arguments), f"{name}: {why}")
         self.assert_nothing_written()
 
     def test_one_bad_study_stops_all(self):
@@ -92,7 +93,7 @@ class BadFile(ProgramTest):
         remedy = "name a .json file that acstudy run has written"
         for name, text, said in (
                 ("none.json", None, f"cannot read the result file; {remedy}"),
-                ("folder", None, f"cannot read the result file; {remedy}"),
+                ("folder", None, r"a folder; name its result files: folder/\*\.json"),
                 ("text.json", "[study]", f"not JSON, from byte 2 on; {remedy}"),
                 ("half.json", '{"study": "tiny", "series": [', f"not JSON, from byte 30 on; {remedy}"),
                 ("empty.json", "", f"cannot read the result file; {remedy}"),

@@ -101,6 +101,28 @@ MISTAKES = {
     "no source": (bad(("[[path]]", "@[[path]]"), (SOURCE + "\n", "")),
                   '[[path]] has no "source"; write, for example, source = "local"'),
 
+    # Several at once
+    "two keys of one table": (bad(("[time]", "@[time]"), ('integrator = "forward-euler"\nstep = "h/4"\n', "")),
+                              '2 keys are missing; write, for example, integrator = "forward-euler" and step = "h/4" in '
+                              "[time]"),
+    "keys of several tables": (
+        bad(("[[scheme]]", "@[[scheme]]"), ('divergence = "local"\nkernel = "inverse"\n', ""), ('delta = "4*h"\n', ""),
+            ('step = "h/4"\n', "")),
+        '4 keys are missing; write, for example, divergence = "local" and kernel = "cubic-spline" in [[scheme]], '
+        'step = "h/4" in [time] (line 11), delta = "4*h" in [[path]] (line 14)'),
+    "keys of tables that are not there": (
+        "@" + bad((TIME_TABLE, ""), (PATH_TABLE, "")),
+        '6 keys are missing; write, for example, integrator = "forward-euler" and step = "h/4" in [time], name = "delta = '
+        '4h" and delta = "4*h" and N = [160, 320, 640, 1280] and source = "local" in [[path]]'),
+    "nothing but a name": ('@[study]\nname = "tiny"\n',
+                           '10 keys are missing; write, for example, use = "lee-du-2019" in [scene], integrator = '
+                           '"forward-euler" and step = "h/4" in [time], name = "delta = 4h" and delta = "4*h" and N = '
+                           '[160, 320, 640, 1280] and source = "local" in [[path]], model = 1 and divergence = "local" '
+                           'and kernel = "cubic-spline" in [[scheme]]'),
+    "a key that is missing and another that is wrong": (
+        bad(("[time]", "@[time]"), ('step = "h/4"\n', ""), ('"4*h"', '"4*k"')),
+        '[time] has no "step"; write, for example, step = "h/4"'),
+
     # Types and words
     "name is a number": (bad(('"tiny"', "@7")), 'name must be a string, not 7; write, for example, name = "fig2"'),
     "name with a capital": (bad(('"tiny"', '@"Tiny"')),

@@ -29,11 +29,11 @@ Row departing() {
 }  // namespace
 
 TEST_CASE("the table has a heading, aligned columns, and the reason where a gate departs") {
-  CHECK(table_text({passing(), departing()}) ==
+  CHECK(table_text({passing(), departing()}, 200) ==
         "gate    study  name                 observed           verdict\n"
         "ok      a      Model I, delta = 4h  0.98 [0.96, 1.00]  confirmed\n"
         "DEPART  a      Model II             -                  stagnates, expected confirmed: the error settles\n");
-  CHECK(table_text({}) == "gate    study  name  observed  verdict\n");
+  CHECK(table_text({}, 200) == "gate    study  name  observed  verdict\n");
 }
 
 TEST_CASE("gates are counted, and those that depart") {

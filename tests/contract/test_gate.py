@@ -30,7 +30,7 @@ class MachineReadable(ProgramTest):
             result = self.result()
             change(result["series"][1])
             (self.folder / "out" / "tiny.json").write_text(json.dumps(result), encoding="utf-8")
-        done = self.acstudy("check", "out/tiny.json", *files, "--junit", "gates.xml", "--github")
+        done = self.acstudy("check", "-v", "out/tiny.json", *files, "--junit", "gates.xml", "--github")
         self.assertEqual((done.returncode, done.stderr), (expect, ""), done.stdout)
         return done.stdout, ET.parse(self.folder / "gates.xml").getroot()
 

@@ -27,3 +27,12 @@ TEST_CASE("progress names what a run has") {
         "1 of 4 cases, 1 s, about 3 s left");
   CHECK(Pace{.findings = 6, .findings_done = 3}.line(2.0) == "3 of 6 findings, 2 s, about 2 s left");
 }
+
+TEST_CASE("a study's line says how far it is, and its end no later than that of all") {
+  StudyPace study{.name = "map", .pace = {.cases = 40, .cases_done = 10, .work = 100.0, .work_done = 20.0}};
+  CHECK(study.line(10.0, 5, std::nullopt) == "map     20 %  10 of 40 cases, about 40 s left");
+  CHECK(study.line(10.0, 5, 30.0) == "map     20 %  10 of 40 cases, about 30 s left");
+  CHECK(study.last_line(12.3, 3) == "map  40 cases, 12 s");
+  study.pace = {.cases = 4, .cases_done = 4, .work = 1.0, .work_done = 1.0, .findings = 3, .findings_done = 1};
+  CHECK(study.line(2.0, 3, std::nullopt) == "map   33 %  1 of 3 findings, about 4 s left");
+}

@@ -86,7 +86,7 @@ class ReferenceTest(ProgramTest):
             changed = json.loads(json.dumps(data))
             change(changed["series"][0])
             file.write_text(json.dumps(changed), encoding="utf-8")
-            done = self.acstudy("check", file)
+            done = self.acstudy("check", "-v", file)
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(reason, done.stdout)
 

@@ -26,6 +26,31 @@ def tables(benches):
     return [table for table in found if table[2]]
 
 
+def left_out(benches):
+    """What of the tables is missing, and why, a line each; that a machine was disturbed is one of the lines."""
+    curves = compared(benches)
+    deviating, timed = work_precision.disturbed([curve for bench in benches for curve in bench.curves])
+    lines = []
+    if timed >= 10 and deviating > work_precision.DISTURBED * timed:
+        lines.append(f"the machine was disturbed: {deviating} of {timed} cases deviate from run to run by more than "
+                     f"{100 * work_precision.NOISE:g} %; run make bench again when it does nothing else")
+    deviation = f"with a deviation of {100 * work_precision.NOISE:g} % at most"
+    few = f"fewer than five cases of {1e3 * work_precision.SHORTEST:g} ms or more {deviation}"
+    if curves:
+        law, prices = (table[1] for table in (law_table(curves), price_table(curves)))
+        of = len(work_precision.costs(curves))
+        for name, rows, why in (("the law of cost", law, few), ("the prices of work", prices,
+                                                               f"fewer than five cases {deviation}")):
+            if len(rows) < of:
+                lines.append(f"left out of {name}: {of - len(rows)} of {of} schemes; they have {why}")
+    else:
+        lines.append("left out: seconds to reach an error, the law of cost, the prices of work; no bench has cases of "
+                     "one thread whose errors are compared")
+    if not thread_pairs(benches):
+        lines.append("left out: threads; no bench has cases with one thread and with several")
+    return lines
+
+
 def page_tables(benches):
     """The same for a page, which has room for all."""
     parts = ("Where the time goes, in percent, at the largest N", *parts_table(compared(benches)), "")

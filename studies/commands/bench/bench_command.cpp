@@ -126,7 +126,9 @@ Command bench_command() {
             a->request.out = a->out;
             a->request.command = command_line;
             return bench(a->files, a->request);
-          }};
+          },
+          {{"bench studies/fig1.toml", "times the cases of a study; samples in reports/out/bench"},
+           {"bench studies/fig5.toml --threads 1,2 --out out", "each case with one thread and with two"}}};
 }
 
 }  // namespace acstudy

@@ -9,7 +9,7 @@
 
 namespace acstudy {
 
-/// The differences, worst first, in lines of 80 columns at most, as far as words fit in: some 40 lines.
+/// The differences, worst first, in lines as long as the terminal is wide: some 40 lines.
 /// @param all  every difference, in as many lines as it takes
 std::string comparison_text(const Comparison& comparison, bool all);
 

@@ -8,6 +8,7 @@
 #include "studies/commands/compare/compare_output.hpp"
 #include "studies/commands/compare/folded.hpp"
 #include "studies/commands/compare/origin.hpp"
+#include "studies/commands/terminal.hpp"
 
 namespace acstudy {
 
@@ -80,7 +81,7 @@ Block worsened_block(const FindingComparison& one, bool all) {
   if (!all && why.size() > most) {
     why.resize(most);
     std::string& last = why.back();
-    while (last.size() + 4 > 80) last.erase(last.find_last_of(' '));
+    while (width_of(last) + 4 > columns(Stream::out)) last.erase(last.find_last_of(' '));
     last += " ...";
   }
   append(lines, why);
@@ -268,13 +269,13 @@ std::string counts_text(const Comparison& comparison) {
 }  // namespace
 
 std::string comparison_text(const Comparison& comparison, bool all) {
-  const std::string columns = fmt::format("{:<28}  {:>11}  {:<22} {:>6} {:>7}", "studies whose numbers differ", "equal",
+  const std::string heading = fmt::format("{:<28}  {:>11}  {:<22} {:>6} {:>7}", "studies whose numbers differ", "equal",
                                           "NEW/OLD", "pairs", "seconds");
   std::vector<Section> sections = {{"worsened", worsened_blocks(comparison, all)},
                                    {"changed otherwise", changed_blocks(comparison)},
                                    {"in one only", single_blocks(comparison)},
                                    {"orders that moved, the verdict being the same", moved_blocks(comparison)},
-                                   {columns, number_blocks(comparison)}};
+                                   {heading, number_blocks(comparison)}};
   std::erase_if(sections, [](const Section& section) { return section.blocks.empty(); });
   constexpr std::size_t lines = 17;  // of all sections, so that the whole stays on a screen
   std::string text = counts_text(comparison);

@@ -11,9 +11,9 @@ namespace acstudy {
 
 using Block = std::vector<std::string>;  ///< lines
 
-/// A text in lines of 80 columns at most, broken between words; a longer word has a line of its own.
+/// A text in lines that the terminal does not break, see `wrapped`; control characters become question marks.
 /// @param first  begins the first line
-/// @param next   begins the others
+/// @param next   blanks that begin the others
 Block folded(std::string_view text, const std::string& first, const std::string& next);
 
 inline void append(Block& lines, const Block& more) { lines.insert(lines.end(), more.begin(), more.end()); }

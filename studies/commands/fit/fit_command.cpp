@@ -5,6 +5,7 @@
 #include "studies/commands/command.hpp"
 #include "studies/commands/exit.hpp"
 #include "studies/commands/fit/fit_values.hpp"
+#include "studies/commands/terminal.hpp"
 
 namespace acstudy {
 
@@ -12,7 +13,7 @@ namespace {
 
 template <class Fits>
 int print(const Fits& fits, bool json) {
-  fmt::print("{}", json ? as_json(fits) : as_text(fits));
+  fmt::print("{}", json ? as_json(fits) : fitted(as_text(fits)));
   return fits.passes() ? done : departs;
 }
 
@@ -78,7 +79,9 @@ Command fit_command() {
             const auto& [request, json] = *arguments;
             if (!request.values.empty() || !request.differences.empty()) return print(fit_values(request), json);
             return print(fit_table(request), json);
-          }};
+          },
+          {{"fit errors.csv --order 2", "do the errors fall with order 2 in h?"},
+           {"fit runs.csv --value drag --order 2 --json", "values without an exact solution, for a program"}}};
 }
 
 }  // namespace acstudy

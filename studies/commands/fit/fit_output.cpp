@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,20 @@ std::string interval(double value, double low, double high, const char* format) 
   const std::string between =
       std::isnan(low) ? "" : fmt::format(" [{}, {}]", number(low, format), number(high, format));
   return number(value, format) + between;
+}
+
+/// A value with its interval, in the digits that the interval leaves it and one more.
+std::string value_with_interval(double value, double low, double high) {
+  const double width = high - low;
+  if (!(width > 0.0) || value == 0.0) return interval(value, low, high, "{:.8g}");
+  const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(width)) + 2.0;
+  // "#" keeps zeros that are digits, and a point behind whole numbers.
+  const auto text = [&](double x) {
+    std::string printed = fmt::format("{:#.{}g}", x, static_cast<int>(std::clamp(digits, 2.0, 15.0)));
+    if (printed.back() == '.') printed.pop_back();
+    return printed;
+  };
+  return fmt::format("{} [{}, {}]", text(value), text(low), text(high));
 }
 
 /// The name of the variable.
@@ -138,7 +153,7 @@ std::string block_of(const ValueFit& fit, const FitRequest& request) {
   text += line("order", order(j), fmt::format("levels {} to {}", j.first + 1, j.differences.size() + 1));
   if (!fit.values.empty()) {
     text +=
-        line("extrapolated value L", interval(j.extrapolated, j.extrapolated_low, j.extrapolated_high, "{:.8g}"), "");
+        line("extrapolated value L", value_with_interval(j.extrapolated, j.extrapolated_low, j.extrapolated_high), "");
   }
   const Gci& gci = j.gci;
   if (!std::isnan(gci.uncertainty)) {

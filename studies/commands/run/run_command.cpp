@@ -5,14 +5,15 @@
 #include <memory>
 #include <thread>
 
-#include "studies/commands/check.hpp"
 #include "studies/commands/command.hpp"
 #include "studies/commands/exit.hpp"
 #include "studies/commands/output.hpp"
-#include "studies/commands/run/runner.hpp"
+#include "studies/commands/run/summary.hpp"
 #include "studies/commands/say.hpp"
 #include "studies/commands/stop.hpp"
+#include "studies/commands/terminal.hpp"
 #include "studies/kinds/study_file.hpp"
+#include "studies/running/stopwatch.hpp"
 
 namespace acstudy {
 
@@ -27,60 +28,7 @@ int available_processors() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-/// What a run says of its studies: a row per gate, and the exit code.
-struct Outcome {
-  std::vector<Row> rows;
-  int status = done;
-};
-
-/// Findings are many: `run` shows those that depart, and those with cases of their own; `check` all.
-void add_findings(Outcome& outcome, const StudyResult& study, bool interrupted_run) {
-  bool all_have_rows = false, all_pass = true;
-  for (const auto& finding : study.findings) {
-    if (!finding) continue;
-    const bool of_series = finding->cases.has_value();
-    if (of_series && interrupted_run && finding->cases->run < finding->cases->planned) continue;
-    const bool passes = finding->as_expected();
-    all_have_rows = all_have_rows || of_series;
-    all_pass = all_pass && passes;
-    if (passes && !of_series) continue;
-    outcome.rows.push_back(row_of(study.study->name, *finding));
-    if (passes) continue;
-    const bool failed = !finding->failure.empty() || finding->judgement.verdict == Verdict::unstable;
-    outcome.status = std::max<int>(outcome.status, failed ? numerical_failure : departs);
-  }
-  if (all_have_rows || !all_pass || interrupted_run) return;
-  outcome.rows.push_back({.study = study.study->name,
-                          .name = fmt::format("{} findings", study.findings.size()),
-                          .observed = "-",
-                          .verdict = "as expected",
-                          .passes = true});
-}
-
-/// Says which series took steps beyond the bound of their lemma, and where that began in its worst case. Steps that
-/// follow the rows' bound mean to.
-void note_steps_beyond_bounds(const std::vector<StudyResult>& studies) {
-  for (const StudyResult& study : studies) {
-    for (const auto& finding : study.findings) {
-      if (!finding || !finding->series) continue;
-      const SeriesResult& result = study.series[*finding->series];
-      const std::vector<Case>& cases = result.series->cases;
-      std::size_t worst = 0;
-      for (std::size_t i = 1; i < cases.size(); ++i) {
-        if (result.results[i].against_bound.largest > result.results[worst].against_bound.largest) worst = i;
-      }
-      const StepsAgainstBound& bound = result.results[worst].against_bound;
-      if (bound.first_step == 0 || cases[worst].step.bound == StepRule::Bound::rows) continue;
-      say(
-          fmt::format("note: {}: {}, N = {}: from step {} on (t = {:.4g}, smallest gap at x = {:.6g}) steps are beyond "
-                      "the bound of {}, by a factor of up to {:.3g}",
-                      study.study->name, finding->label(), cases[worst].N, bound.first_step, bound.first_time,
-                      bound.first_place, result.series->scheme.model->step_lemma.name, bound.largest));
-    }
-  }
-}
-
-int run(const std::vector<std::string>& files, const RunOptions& options) {
+int run(const std::vector<std::string>& files, const RunOptions& options, bool verbose) {
   std::vector<Study> studies = read_studies(files);
   if (options.readable) {
     for (Study& study : studies) {
@@ -90,15 +38,21 @@ int run(const std::vector<std::string>& files, const RunOptions& options) {
     }
   }
   prepare_folder(options.out);
-  const RunResult result = run_studies(studies, options, stop_on_signals());
-  Outcome outcome;
-  for (const StudyResult& study : result.studies) {
-    add_findings(outcome, study, result.interrupted);
+  double seconds = 0.0;
+  RunResult result;
+  timed(seconds, [&] { result = run_studies(studies, options, stop_on_signals()); });
+  const RunSummary summary = summarize(result, seconds, options.out.string());
+  constexpr std::size_t most_lines = 25, most_notes = 3;
+  const std::size_t width = columns(Stream::out);
+  if (options.quiet) {
+    fmt::print("{}", departures_text(summary, width, most_lines));
+  } else {
+    const std::vector<std::string> notes = steps_beyond_bounds(result.studies, most_notes);
+    for (const std::string& note : notes) say("note: " + note);
+    fmt::print("{}{}", verbose ? table_text(summary.rows, table_width()) : "",
+               summary_text(summary, width, most_lines - 2 * notes.size()));
   }
-  fmt::print("{}{} cases computed, {} taken from the store; results in {}\n", table_text(outcome.rows), result.computed,
-             result.reused, options.out.string());
-  note_steps_beyond_bounds(result.studies);
-  if (!result.interrupted) return outcome.status;
+  if (!result.interrupted) return summary.status;
   say("interrupted; finished cases are stored, and the same command goes on from them");
   return interrupted;
 }
@@ -109,12 +63,13 @@ Command run_command() {
   struct Arguments {
     std::vector<std::string> files;
     RunOptions options;
+    bool verbose = false;
     std::string out = options.out.string(), form = "vector";
   };
   const auto a = std::make_shared<Arguments>();
   a->options.jobs = available_processors();
   return {"run",
-          "Run every case of the studies that is not stored yet",
+          "Run every case of the studies that is not stored yet; exit 1 if a verdict departs",
           {{.name = "STUDY.toml", .target = &a->files, .help = "study files", .required = true},
            {.name = "--out", .target = &a->out, .help = "folder for DIR/<study>.h5 and .json", .type = "DIR"},
            {.name = "--jobs",
@@ -132,13 +87,17 @@ Command run_command() {
             .target = &a->form,
             .help = "vector: several particles at a time, weights never stored; readable: its reference",
             .type = "NAME",
-            .one_of = {"vector", "readable"}}},
+            .one_of = {"vector", "readable"}},
+           verbose_option(&a->verbose, "print a table of every series as well"),
+           quiet_option(&a->options.quiet, "print only what departs, and no progress")},
           [a](const std::string& command_line) {
             a->options.out = a->out;
             a->options.readable = a->form == "readable";
             a->options.command = command_line;
-            return run(a->files, a->options);
-          }};
+            return run(a->files, a->options, a->verbose);
+          },
+          {{"run studies/fig1.toml", "the first figure of the paper; results in reports/out"},
+           {"run -v my-study.toml --out out --jobs 2", "a study of your own, with a table of its series"}}};
 }
 
 }  // namespace acstudy

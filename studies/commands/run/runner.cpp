@@ -16,6 +16,7 @@
 #include "studies/commands/run/progress.hpp"
 #include "studies/running/reference.hpp"
 #include "studies/running/run_case.hpp"
+#include "studies/running/stopwatch.hpp"
 #include "studies/storing/keys.hpp"
 
 namespace acstudy {
@@ -50,9 +51,7 @@ class Runner {
 
   RunResult run() {
     for (std::size_t s = 0; s < studies_.size(); ++s) finish_if_complete(s);
-    double work = 0.0;
-    for (const Case* c : open_.cases) work += c->estimated_work();
-    progress_.emplace(open_.cases.size(), work, open_.measurements.size());
+    start_progress();
     std::exception_ptr failure;
     {
       const EverySecond every_second([&] {
@@ -82,6 +81,7 @@ class Runner {
   void take_up(std::size_t s, const EarlierResults& earlier) {
     const Study& study = studies_[s];
     StudyResult& result = run_.studies.emplace_back(StudyResult{&study, {}, {}});
+    run_.seconds.push_back(0.0);
     open_.cases_of.push_back(0);
     for (const Series& series : study.series) {
       result.series.push_back({&series, {}});
@@ -128,6 +128,31 @@ class Runner {
     ++open_.cases_of[place.study];
   }
 
+  /// The studies that want an open case, each once.
+  std::vector<std::size_t> wanting(std::size_t open_case) const {
+    std::vector<std::size_t> studies;  // their numbers do not fall
+    for (const Open::Place& place : open_.wanted_by[open_case]) {
+      if (studies.empty() || studies.back() != place.study) studies.push_back(place.study);
+    }
+    return studies;
+  }
+
+  void start_progress() {
+    std::vector<StudyPace> studies;
+    for (const Study& study : studies_) studies.push_back({study.name});
+    Pace all{.cases = open_.cases.size(), .findings = open_.measurements.size()};
+    for (std::size_t i = 0; i < open_.cases.size(); ++i) {
+      const double work = open_.cases[i]->estimated_work();
+      all.work += work;
+      for (const std::size_t s : wanting(i)) {
+        ++studies[s].pace.cases;
+        studies[s].pace.work += work;
+      }
+    }
+    for (const auto& [s, number] : open_.measurements) ++studies[s].pace.findings;
+    progress_.emplace(std::move(studies), all, options_.quiet);
+  }
+
   CaseResult& result_at(const Open::Place& place) {
     return run_.studies[place.study].series[place.series].results[place.level];
   }
@@ -142,6 +167,7 @@ class Runner {
     }
     write_results(options_.out, run_.studies[s], provenance_[s]);
     journals_->finish(s);
+    if (progress_) progress_->study_done(s, run_.seconds[s]);
   }
 
   void finish_if_complete(std::size_t s) {
@@ -187,8 +213,9 @@ class Runner {
     for (const std::size_t i : batch.cases) these.push_back(plans_[i]);
     std::vector<CaseResult> results;
     std::exception_ptr failure;
+    double seconds = 0.0;
     try {
-      results = run_cases(these, stop_, options_.repeats, threads, most_seconds);
+      timed(seconds, [&] { results = run_cases(these, stop_, options_.repeats, threads, most_seconds); });
     } catch (...) {
       failure = std::current_exception();
     }
@@ -196,12 +223,16 @@ class Runner {
     --running_;
     changed_.notify_all();
     if (failure) std::rethrow_exception(failure);
-    take_results(batch, std::move(results));
+    take_results(batch, std::move(results), threads * seconds);
   }
 
   /// Takes results of a batch; what was put off of it is open again, in parts of what was done.
-  void take_results(const Batch& batch, std::vector<CaseResult> results) {
+  /// @param seconds  of processors, for all of them
+  void take_results(const Batch& batch, std::vector<CaseResult> results, double seconds) {
     double done = 0.0;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      if (results[k].completed) done += open_.cases[batch.cases[k]]->estimated_work();
+    }
     std::vector<std::size_t> put_off;
     for (std::size_t k = 0; k < results.size(); ++k) {
       const std::size_t i = batch.cases[k];
@@ -210,17 +241,22 @@ class Runner {
         continue;
       }
       ++run_.computed;
-      done += open_.cases[i]->estimated_work();
-      progress_->case_done(open_.cases[i]->estimated_work());
-      std::set<std::size_t> wanting;
+      const double work = open_.cases[i]->estimated_work();
+      const std::vector<std::size_t> studies = wanting(i);
+      progress_->case_done(work, studies);
+      std::set<std::size_t> unsaved;
       for (const Open::Place& place : open_.wanted_by[i]) {
         CaseResult& result = result_at(place);
         result = results[k];
-        if (wanting.insert(place.study).second)
+        if (unsaved.insert(place.study).second) {
           journals_->unsaved(place.study).cases.emplace_back(open_.cases[i], &result);
+        }
         --open_.cases_of[place.study];
       }
-      for (const std::size_t s : wanting) finish_if_complete(s);
+      for (const std::size_t s : studies) {
+        run_.seconds[s] += seconds * work / done / static_cast<double>(studies.size());
+        finish_if_complete(s);
+      }
     }
     if (stop_) return;
     std::vector<Batch> parts = batches_up_to(done, plans_, put_off);
@@ -234,11 +270,14 @@ class Runner {
       if (next == open_.measurements.size() || stop_) return false;
       const auto [s, m] = open_.measurements[next++];
       lock.unlock();
-      Finding finding = studies_[s].measurements[m].take(run_.studies[s].series);
+      Finding finding;
+      double seconds = 0.0;
+      timed(seconds, [&] { finding = studies_[s].measurements[m].take(run_.studies[s].series); });
       lock.lock();
       run_.studies[s].findings[m] = std::move(finding);
+      run_.seconds[s] += seconds;
       journals_->unsaved(s).findings.push_back(m);
-      progress_->finding_done();
+      progress_->finding_done(s);
       finish_if_complete(s);
       return true;
     });

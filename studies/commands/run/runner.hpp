@@ -18,12 +18,14 @@ struct RunOptions {
   int jobs = 1;             ///< cases that run at the same time
   bool fresh = false;       ///< run stored cases again
   bool readable = false;    ///< run cases in the readable form of their schemes
+  bool quiet = false;       ///< show no progress
   std::size_t repeats = 1;  ///< runs of each case, for its time and the spread
   std::string command;
 };
 
 struct RunResult {
   std::vector<StudyResult> studies;
+  std::vector<double> seconds;  ///< of processors, that each study took; of a case of several their share
   std::size_t computed = 0, reused = 0;
   bool interrupted = false;
 };

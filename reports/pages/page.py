@@ -6,7 +6,7 @@ from markupsafe import Markup
 
 from drawing import inlined, svg
 from kinds import registry
-from pages import claims, comparison, explorer, headline, in_parts, mutants, questions, run_time
+from pages import claims, comparison, explorer, headline, in_parts, mutants, paths, questions, run_time
 from pages.making import Drawn
 from pages.study import article, listing
 from pages.verdicts import departing, verdicts
@@ -48,6 +48,7 @@ def _contents(studies, drawn, benches, seeded, compared):
     inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
     statements = claims.statements(studies)
     sections = {question: _answers(question, found, rest, drawn.studies, statements) for question in questions.ALL}
+    sections[questions.COMPATIBILITY] = paths.table(studies) + sections[questions.COMPATIBILITY]
     if curves or compared:
         sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, benches, drawn.benches, compared)
     if seeded is not None:

@@ -62,7 +62,7 @@ def _contents(studies, drawn, benches, seeded, compared):
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
         departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,
-        headline=figures.figure(first) if first else "", reading=headline.reading(top) if top else "",
+        headline=figures.figure(first) if first else "", reading=headline.reading(top, bool(first and first.says)) if top else "",
         in_numbers=headline.in_numbers(top) if top else "",
         noticed=[headline.noticed(study) for study in found[questions.MISTAKES]],
         sections=[Section(question, content) for question, content in sections.items() if content],

@@ -25,8 +25,9 @@ def reading(study, said):
     orders = [result for result in study.findings if math.isfinite(result.observed_order) and result.theory_order > 0]
     paths = len({result.series.path for result in study.findings})
     schemes = len({result.series.scheme for result in study.findings})
-    said_of = (f"{markup.several(schemes, 'scheme')} along {markup.several(paths, 'path')} "
-               "on which horizon and spacing shrink. ")
+    both = all(result.variable_name == "max(h,delta)" for result in study.findings)
+    said_of = (f"{markup.several(schemes, 'scheme')} along {markup.several(paths, 'path')}"
+               f"{' on which horizon and spacing shrink' if both else ''}. ")
     if said:
         return said_of
     if orders:

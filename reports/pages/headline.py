@@ -74,7 +74,8 @@ def noticed(study):
         rows.append(tables.Row((
             Markup("<strong>{}</strong> {}").format(name, markup.note(remarks.get(subject, ""))), scheme.replace(" divergence", ""),
             *map(_alarm, found)), not all(finding.as_expected for finding in found if finding)))
-    return tables.table(f"{study.title}: wrong schemes", ("what is wrong", "in", *(f"|{names.path_text(check)}" for check in checks)), rows)
+    columns = ("what is wrong", "in", *(f"|{names.path_text(check)}" for check in checks))
+    return tables.table(f"{study.title}: wrong schemes", columns, rows)
 
 
 def _alarm(finding):
@@ -83,5 +84,5 @@ def _alarm(finding):
         return "–"
     if not finding.alarm:
         return "" if finding.as_expected else Markup("<strong>quiet</strong>")
-    return Markup('<span class="alarm{}" title="{}">{}</span>').format("" if finding.as_expected else " bad",
-                                                                      finding.verdict, SHORT.get(finding.verdict, finding.verdict))
+    return Markup('<span class="alarm{}" title="{}">{}</span>').format(
+        "" if finding.as_expected else " bad", finding.verdict, SHORT.get(finding.verdict, finding.verdict))

@@ -9,8 +9,8 @@ from reading import names
 from writing import markup, tables
 from writing.series import interval
 
-ABOUT = Markup("""<p>The order of the error in max(<var>h</var>, <var>δ</var>) along each path on which both vanish, against the
-local equation, with its 95&nbsp;% interval. A scheme is asymptotically compatible if it is the same on all of them.</p>
+ABOUT = Markup("""<p>The order of the error in max(<var>h</var>, <var>δ</var>) along each path on which both vanish, against
+the local equation, with its 95&nbsp;% interval. A scheme is asymptotically compatible if it converges on all of them.</p>
 """)
 
 

@@ -64,7 +64,7 @@ def report(folder, files, figures=None, formats=(), parts=False):
         for one in (one for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group):
             for kind, content in one.files.items():
                 _write(figures / f"{one.stem}.{kind}", content)
-    for name, text in page.files(studies, drawn, benches, seeded, compared, parts).items():
+    for name, text in page.files(studies, drawn, benches, seeded, compared, parts, kept).items():
         _write(folder / name, text.encode("utf-8"))
     kept.clear()
     return folder / "index.html"

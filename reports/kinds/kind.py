@@ -12,7 +12,7 @@ def section(study, drawings, entries, above="", below="", every=None):
     of the table of all."""
     departing = [entry for entry in entries if not entry.as_expected]
     parts = [markup.outcome({"findings": len(departing)}, {"findings": len(entries)}), above]
-    parts += [figures.figure(drawing) for drawing in drawings]
+    parts += figures.shown(drawings)
     if departing:
         parts.append(entry_table(departing, f"{study.title}: not as expected"))
     parts.append(below)

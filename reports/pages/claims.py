@@ -60,14 +60,15 @@ def _measured(statement):
 
 
 def _where(statement, drawings):
-    """Links to its figures and to the studies that measured it, whose tables the script shows of this statement alone."""
-    found = {}
+    """Links to the studies that measured it, whose tables the script shows of this statement alone, and to figures."""
+    lines = []
     for study in dict.fromkeys(entry.study.name for entry in statement.entries):
         of_study = drawings.get(study, [])
         shown = [one for one in of_study if statement.name in one.statements]
-        for drawing in shown or [one for one in of_study if not one.statements][:1]:
-            found[drawing.stem] = markup.link(f"{drawing.stem}.figure", drawing.stem)
         count = sum(entry.study.name == study for entry in statement.entries)
-        found[f"{study} "] = Markup('<a href="#{}" data-find="{}">{}</a>').format(
-            study, statement.name, f"{study}: {markup.several(count, 'finding')}")
-    return markup.joined(found.values(), markup.BAR)
+        links = [Markup('<a href="#{}" data-find="{}">{}</a>').format(
+            study, statement.name, f"{study}: {markup.several(count, 'finding')}")]
+        links += [markup.link(f"{one.stem}.figure", "figure")
+                  for one in shown or [one for one in of_study if not one.statements][:1]]
+        lines.append(markup.joined(links, ", "))
+    return markup.joined(lines, markup.BAR)

@@ -20,21 +20,24 @@ def study_of(found):
     return None
 
 
-def reading(study):
-    """The figure in a sentence."""
+def reading(study, said):
+    """The figure in a sentence. `said`: it says itself what came out."""
     orders = [result for result in study.findings if math.isfinite(result.observed_order) and result.theory_order > 0]
     paths = len({result.series.path for result in study.findings})
     schemes = len({result.series.scheme for result in study.findings})
-    said = (f"{markup.several(schemes, 'scheme')} along {markup.several(paths, 'path')} "
-            "on which horizon and spacing shrink. ")
+    both = all(result.variable_name == "max(h,delta)" for result in study.findings)
+    said_of = (f"{markup.several(schemes, 'scheme')} along {markup.several(paths, 'path')}"
+               f"{' on which horizon and spacing shrink' if both else ''}. ")
+    if said:
+        return said_of
     if orders:
         low, high = (names.order(end(result.observed_order for result in orders)) for end in (min, max))
         theory = " and ".join(sorted({f"{result.theory_order:g}" for result in orders}))
-        said += (f"Every curve falls with an order between {low} and {high}; theory says {theory}. " if len(orders) > 1
-                 else f"The error falls with the order {low}; theory says {theory}. ")
+        said_of += (f"Every curve falls with an order between {low} and {high}; theory says {theory}. " if len(orders) > 1
+                    else f"The error falls with the order {low}; theory says {theory}. ")
     departing = sum(not result.as_expected for result in study.findings)
-    return said + (f"{departing} of {len(study.findings)} series are not as expected." if departing else
-                   "No series departs from what is expected.")
+    return said_of + (f"{departing} of {len(study.findings)} series are not as expected." if departing else
+                      "No series departs from what is expected.")
 
 
 def in_numbers(study):
@@ -71,7 +74,8 @@ def noticed(study):
         rows.append(tables.Row((
             Markup("<strong>{}</strong> {}").format(name, markup.note(remarks.get(subject, ""))), scheme.replace(" divergence", ""),
             *map(_alarm, found)), not all(finding.as_expected for finding in found if finding)))
-    return tables.table(f"{study.title}: wrong schemes", ("what is wrong", "in", *(f"|{names.path_text(check)}" for check in checks)), rows)
+    columns = ("what is wrong", "in", *(f"|{names.path_text(check)}" for check in checks))
+    return tables.table(f"{study.title}: wrong schemes", columns, rows)
 
 
 def _alarm(finding):
@@ -80,5 +84,5 @@ def _alarm(finding):
         return "–"
     if not finding.alarm:
         return "" if finding.as_expected else Markup("<strong>quiet</strong>")
-    return Markup('<span class="alarm{}" title="{}">{}</span>').format("" if finding.as_expected else " bad",
-                                                                      finding.verdict, SHORT.get(finding.verdict, finding.verdict))
+    return Markup('<span class="alarm{}" title="{}">{}</span>').format(
+        "" if finding.as_expected else " bad", finding.verdict, SHORT.get(finding.verdict, finding.verdict))

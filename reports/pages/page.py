@@ -6,7 +6,7 @@ from markupsafe import Markup
 
 from drawing import inlined, svg
 from kinds import registry
-from pages import claims, comparison, explorer, headline, in_parts, mutants, questions, run_time
+from pages import claims, comparison, explorer, headline, in_parts, mutants, paths, questions, run_time
 from pages.making import Drawn
 from pages.study import article, listing
 from pages.verdicts import departing, verdicts
@@ -23,12 +23,12 @@ class Section:
     content: Markup
 
 
-def files(studies, drawn, benches=(), seeded=None, compared=None, parts=False):
+def files(studies, drawn, benches=(), seeded=None, compared=None, parts=False, kept=None):
     """{name: text of the page}. parts: a page for each question, else all in one.
 
-    `drawn`: making.Drawn; `seeded`: mutants.read(); `compared`: comparison.read().
+    `drawn`: making.Drawn; `seeded`: mutants.read(); `compared`: comparison.read(); `kept`: a reading.kept.Kept, or None.
     """
-    found = _contents(studies, drawn, benches, seeded, compared)
+    found = _contents(studies, drawn, benches, seeded, compared, kept)
     return in_parts.files(found) if parts else {"index.html": str(markup.render("page.html", **found, parts=False))}
 
 
@@ -37,7 +37,7 @@ def html(studies, drawings, benches=(), seeded=None, compared=None):
     return files(studies, Drawn(drawings, [], []), benches, seeded, compared)["index.html"]
 
 
-def _contents(studies, drawn, benches, seeded, compared):
+def _contents(studies, drawn, benches, seeded, compared, kept):
     """What the templates of the page name."""
     found = questions.by_question(studies)
     curves = run_time.curves(studies, benches)
@@ -47,7 +47,8 @@ def _contents(studies, drawn, benches, seeded, compared):
     rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
     inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
     statements = claims.statements(studies)
-    sections = {question: _answers(question, found, rest, drawn.studies, statements) for question in questions.ALL}
+    sections = {question: _answers(question, found, rest, drawn.studies, statements, kept) for question in questions.ALL}
+    sections[questions.COMPATIBILITY] = paths.table(studies) + sections[questions.COMPATIBILITY]
     if curves or compared:
         sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, benches, drawn.benches, compared)
     if seeded is not None:
@@ -61,7 +62,7 @@ def _contents(studies, drawn, benches, seeded, compared):
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
         departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,
-        headline=figures.figure(first) if first else "", reading=headline.reading(top) if top else "",
+        headline=figures.figure(first) if first else "", reading=headline.reading(top, bool(first and first.says)) if top else "",
         in_numbers=headline.in_numbers(top) if top else "",
         noticed=[headline.noticed(study) for study in found[questions.MISTAKES]],
         sections=[Section(question, content) for question, content in sections.items() if content],
@@ -70,10 +71,10 @@ def _contents(studies, drawn, benches, seeded, compared):
         compared_absent=comparison.section(None) if compared is None and not sections[questions.RUN_TIME] else "")
 
 
-def _answers(question, found, rest, drawings, statements):
+def _answers(question, found, rest, drawings, statements, kept):
     """Statement by statement, and then the studies of a question."""
     return markup.joined((*_statements(question, found, drawings, statements),
-                          *(article(study, rest.get(study.name, [])) for study in found[question])))
+                          *(article(study, rest.get(study.name, []), kept) for study in found[question])))
 
 
 def _statements(question, found, drawings, statements):

@@ -58,8 +58,8 @@ def section(curves_found, costs, benches, of_benches, compared):
 
 def choices(found):
     """What to choose for a wanted error: the quickest scheme along each path of each scene."""
-    groups = {}
-    for curve in found:
+    scenes, groups = list(dict.fromkeys(curve.scene for curve in found)), {}
+    for curve in sorted(found, key=lambda curve: scenes.index(curve.scene)):
         groups.setdefault((curve.scene, curve.path), []).append(curve)
     targets = [f"{target:.0e}".replace("e-0", "e-") for target in work_precision.TARGETS]
     rows = [(scene, path, *(_quickest(group, target) for target in work_precision.TARGETS))
@@ -76,8 +76,11 @@ def _quickest(group, target):
     if not reached:
         return "not reached"
     seconds, kind, i = min(reached)
-    return Markup("{} s {}").format(bench_tables.KINDS[kind].format(bench_tables.seconds(seconds)),
-                                    markup.note(names.full_name(group[i].scheme)))
+    return Markup("{} {}").format(_REACHED[kind].format(bench_tables.seconds(seconds)),
+                                  markup.note(names.full_name(group[i].scheme)))
+
+
+_REACHED = {"between": "{} s", "coarsest": "< {} s", "beyond": "~ {} s, extrapolated"}
 
 
 def _curve(study, series):

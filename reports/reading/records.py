@@ -137,7 +137,7 @@ class Finding:
         return self.expected != self.promised or self.promised in ("violated", "stagnates")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)     # arrays have no hash and no truth
 class Study:
     """One result file."""
     file: Path

@@ -2,7 +2,20 @@
 
 from markupsafe import Markup
 
-from writing import markup
+from writing import markup, tables
+
+AT_ONCE = 2     # figures of a study that are not folded
+
+
+def shown(drawings):
+    """All figures of a study, those after the first ones folded."""
+    parts = [figure(drawing) for drawing in drawings[:AT_ONCE]]
+    more = drawings[AT_ONCE:]
+    if more:
+        said = Markup("{} {}").format(markup.several(len(more), "more figure"),
+                                      markup.note("; ".join(drawing.title.rpartition(": ")[2] for drawing in more)))
+        parts.append(tables.fold(said, markup.joined(map(figure, more))))
+    return parts
 
 
 def figure(drawing):

@@ -223,6 +223,14 @@ class Page(BrowserTest):
         stops = self.run_script("return [...document.querySelectorAll('a[href], button, input, select, summary, "
                                 "[tabindex=\"0\"]')].filter(one => one.offsetParent && one.tabIndex >= 0).length")
         self.assertLess(stops, 90)
+        self.run_script("document.querySelector('#q\\\\.theorems tbody a').focus()")
+        places = []
+        for key in ("ArrowDown", "ArrowUp"):
+            places.append(self.run_script("return document.activeElement.outerHTML"))
+            self.press(key)
+        places.append(self.run_script("return document.activeElement.outerHTML"))
+        self.assertNotEqual(places[0].replace("-1", "0"), places[1])
+        self.assertEqual(places[0], places[2])
         self.assertEqual(self.run_script("return document.querySelectorAll('.scroll[tabindex]').length"), 0)
 
     def test_headings_are_in_order(self):

@@ -127,7 +127,8 @@ class Page(ReportTest):
         write(self.folder, "ledger", kind="consistency", findings=[finding()])
         self.assertEqual(self.run_report(self.folder, "--folder")[0], 0)
         pages = {file.name: file.read_text(encoding="utf-8") for file in self.folder.glob("*.html")}
-        self.assertEqual(sorted(pages), ["figures.html", "index.html", "lemmas.html", "run-time.html", "theorems.html"])
+        self.assertEqual(sorted(pages), ["compatibility.html", "figures.html", "index.html", "lemmas.html",
+                                         "run-time.html", "theorems.html"])
         for name, text in pages.items():
             for page_of, place in re.findall(r'<a href="([^"#]*)#([^"]*)"', text):
                 self.assertIn(f' id="{place}"', pages[page_of or name])

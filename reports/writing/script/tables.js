@@ -10,6 +10,7 @@ class Sheet {
     this.rows = [...this.body.rows];
     this.heads = [...table.tHead.rows[0].cells];
     this.heads.forEach((head, column) => this.addButton(head, column));
+    this.makeOneStop();
     if (this.rows.length >= FILTERED && !table.closest(".second")) this.addFinder();
     table.sheet = this;
     this.follow();
@@ -25,6 +26,21 @@ class Sheet {
       } });
     button.append(...head.childNodes);
     head.append(button);
+  }
+
+  // So are all links of its rows; arrow keys go up and down.
+  makeOneStop() {
+    const stops = "tbody a, tbody summary";
+    [...this.table.querySelectorAll(stops)].forEach((stop, i) => (stop.tabIndex = i ? -1 : 0));
+    this.body.addEventListener("keydown", (event) => {
+      const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+      const all = [...this.table.querySelectorAll(stops)].filter((stop) => stop.checkVisibility?.() ?? true);
+      const next = step && all[all.indexOf(event.target) + step];
+      if (!next) return;
+      event.preventDefault();
+      all.forEach((stop) => (stop.tabIndex = stop === next ? 0 : -1));
+      next.focus();
+    });
   }
 
   addFinder() {

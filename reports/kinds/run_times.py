@@ -6,24 +6,24 @@ import math
 from matplotlib.lines import Line2D
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.frames import panel_frames
-from drawing.look import DASHES, LINE, Drawing, foot_legend, typography
+from drawing.look import DASHES, LINE, Drawing, foot_legend, slug, typography
 from drawing.styles import Style
 from drawing.timed import error_over_seconds
 from reading import names
 
 
-def drawings(studies, styles):
-    """The cost figure, or nothing."""
+def drawings(studies, styles, scene):
+    """The cost figure of the studies of one scene, or nothing."""
     figure = cost_figure(studies, styles)
     return [] if figure is None else [Drawing(
-        "cost", "Error against run time", figure,
-        "Log-log plot of the max-norm error against the run time of every scheme, a panel per path. "
-        "Values: tables above.",
-        "Run time of the whole time loop, or a case's share of it where several advance on the same particles: median "
-        "of the repeats, bars from the fastest to the slowest. Comparable only between runs of one machine. Series run "
-        "by several studies are drawn once.")]
+        f"cost.{slug(scene)}", f"Error against run time: {scene}", figure,
+        f"Log-log plot of the max-norm error against the run time of every scheme on the scene {scene}, a panel per "
+        "path. Values: tables below.",
+        f"Scene {scene}. Run time of the whole time loop, or a case's share of it where several advance on the same "
+        "particles: median of the repeats, bars from the fastest to the slowest. Comparable only between runs of one "
+        "machine. Series run by several studies are drawn once.")]
 
 
 def cost_curves(studies):
@@ -60,8 +60,8 @@ def cost_figure(studies, styles):
         seconds, errors = np.array(timed).T if timed else (np.array([]), np.array([]))
         for frame, (path, drawn) in zip(frames, panels.items()):
             frame.axes.set_title(names.path_math(path))
-            for cases, _, style in drawn:
-                error_over_seconds(frame.axes, cases, **style.line())
+            for cases, text, style in drawn:
+                error_over_seconds(frame.axes, cases, name=text, about=path, **style.line())
             axes.set_log_limits(frame.axes, axes.padded(seconds), axes.padded(errors), frame.inches)
             frame.axes.minorticks_off()     # they would take half of the drawing time
             if frame.first:
@@ -69,8 +69,9 @@ def cost_figure(studies, styles):
             if frame.last:
                 frame.axes.set_xlabel("run time (s)")
             frame.axes.tick_params(labelleft=frame.first, labelbottom=frame.last)
-        foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in legend.values()],
-                    map(names.literal, legend), columns)
+        key = foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in legend.values()],
+                          map(names.literal, legend), columns)
+        hover.mark_legend(key, legend)
         return figure
 
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "studies/commands/gate.hpp"
-#include "studies/storing/result_json.hpp"
+#include "studies/storing/result_record.hpp"
 
 namespace acstudy {
 

@@ -56,6 +56,7 @@ Option quiet_option(bool* target, const std::string& help);
 
 Command run_command();
 Command check_command();
+Command compare_command();
 Command fit_command();
 Command bench_command();
 Command explain_command();

@@ -59,17 +59,43 @@ void write_cases(hid_t group, const SeriesResult& result, const std::vector<std:
   }
 }
 
+namespace {
+
+/// The numbers of the cases of a group.
+std::vector<CaseResult> read_numbers(hid_t group, std::size_t count) {
+  std::vector<CaseResult> results(count);
+  h5::read_columns(group, results, [](CaseResult& result, auto&& visit) { for_each<true>(result, visit); });
+  return results;
+}
+
+}  // namespace
+
 void read_cases(hid_t group, StoredCases& stored) {
   const h5::Handle cases = h5::open_group(group, "cases");
   const auto N = h5::read_column<std::int64_t>(group, "N");
-  std::vector<CaseResult> results(N.size());
-  h5::read_columns(group, results, [](CaseResult& result, auto&& visit) { for_each<true>(result, visit); });
+  std::vector<CaseResult> results = read_numbers(group, N.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
     results[i].completed = true;
     for_each<false>(results[i], [&](const std::string& name, auto& value) { h5::read(one, name, value); });
     stored.cases[h5::read_text(one, "key")] = std::move(results[i]);
   }
+}
+
+std::vector<CaseRecord> read_case_records(hid_t group) {
+  const h5::Handle cases = h5::open_group(group, "cases");
+  const auto N = h5::read_column<std::int64_t>(group, "N");
+  const auto h = h5::read_column<double>(group, "h"), delta = h5::read_column<double>(group, "delta");
+  std::vector<CaseResult> results = read_numbers(group, N.size());
+  std::vector<CaseRecord> records;
+  for (std::size_t i = 0; i < N.size(); ++i) {
+    const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
+    results[i].completed = true;
+    h5::read(one, "blow_up", results[i].blow_up);
+    h5::read(one, "failure", results[i].failure);
+    records.push_back({.N = N[i], .h = h.at(i), .delta = delta.at(i), .result = std::move(results[i])});
+  }
+  return records;
 }
 
 }  // namespace acstudy

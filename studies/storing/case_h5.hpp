@@ -8,6 +8,7 @@
 
 #include "studies/cases/study_result.hpp"
 #include "studies/storing/h5.hpp"
+#include "studies/storing/result_record.hpp"
 #include "studies/storing/store.hpp"
 
 namespace acstudy {
@@ -21,5 +22,7 @@ CaseResult read_case(hid_t group);
 void write_cases(hid_t group, const SeriesResult& result, const std::vector<std::size_t>& indices);
 /// What `write_cases` has written, by storage key.
 void read_cases(hid_t group, StoredCases& stored);
+/// The same without the fields, as records.
+std::vector<CaseRecord> read_case_records(hid_t group);
 
 }  // namespace acstudy

@@ -102,7 +102,7 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
   if (const auto& fit = finding.surface) write_surface(group, *fit);
 }
 
-Finding read_finding(hid_t group) {
+Finding read_stated(hid_t group) {
   Finding finding{};
   for_each_text(finding, [&](const char* name, std::string& text) { text = h5::read_text(group, name); });
   finding.coordinates = {{"check", h5::read_text(group, "check")}};
@@ -117,12 +117,40 @@ Finding read_finding(hid_t group) {
   finding.expected = verdict_from(h5::read_text(group, "expected")).value();
   std::istringstream also(h5::read_text(group, "also_expected"));
   for (std::string name; also >> name;) finding.also_expected.push_back(verdict_from(name).value());
+  Judgement& judgement = finding.judgement;
+  judgement.verdict = verdict_from(h5::read_text(group, "verdict")).value();
+  judgement.reason = h5::read_text(group, "reason");
+  judgement.order = h5::read_number(group, "observed_order");
+  judgement.low = h5::read_number(group, "observed_low");
+  judgement.high = h5::read_number(group, "observed_high");
+  return finding;
+}
+
+Finding read_finding(hid_t group) {
+  Finding finding = read_stated(group);
+  read_points(group, finding);
+  judge(finding);
+  return finding;
+}
+
+void read_points(hid_t group, Finding& finding) {
   finding.points.resize(h5::read_column<double>(group, "value").size());
   h5::read_columns(group, finding.points, [](Point& p, auto&& visit) { for_each_column(p, visit); });
   std::istringstream labels(h5::read_text(group, "labels"));
   for (Point& point : finding.points) std::getline(labels, point.label);
-  judge(finding);
-  return finding;
+}
+
+std::map<std::string, Coordinate::Value> read_coordinates(hid_t group) {
+  std::map<std::string, Coordinate::Value> all;
+  if (H5Lexists(group, "coordinates", H5P_DEFAULT) <= 0) return all;
+  const h5::Handle coordinates = h5::open_group(group, "coordinates");
+  for (const std::string& name : h5::attribute_names(coordinates)) {
+    const h5::Handle attribute(H5Aopen(coordinates, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute " + name);
+    const h5::Handle type(H5Aget_type(attribute), H5Tclose, "read the type of " + name);
+    all.emplace(name, H5Tget_class(type) == H5T_STRING ? Coordinate::Value(h5::read_text(coordinates, name))
+                                                       : Coordinate::Value(h5::read_number(coordinates, name)));
+  }
+  return all;
 }
 
 }  // namespace acstudy

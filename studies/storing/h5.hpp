@@ -180,4 +180,14 @@ inline std::vector<std::string> group_names(hid_t group) {
   return names;
 }
 
+inline std::vector<std::string> attribute_names(hid_t object) {
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
+    static_cast<std::vector<std::string>*>(to)->push_back(name);
+    return 0;
+  };
+  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names), "list attributes");
+  return names;
+}
+
 }  // namespace acstudy::h5

@@ -15,6 +15,7 @@
 #include "studies/storing/files.hpp"
 #include "studies/storing/finding_h5.hpp"
 #include "studies/storing/keys.hpp"
+#include "studies/storing/result_record.hpp"
 
 namespace acstudy {
 
@@ -80,6 +81,22 @@ h5::Handle open_when_unlocked(const fs::path& file) {
   return {id, H5Fclose, "open it"};
 }
 
+/// What a record of a series has besides the verdict.
+void read_series(hid_t group, std::size_t number, FindingRecord& record) {
+  record.cases = read_case_records(group);
+  if (H5Lexists(group, "reference", H5P_DEFAULT) > 0) {
+    for (CaseRecord& one : read_case_records(h5::open_group(group, "reference"))) {
+      one.reference = true;
+      record.cases.push_back(std::move(one));
+    }
+  }
+  Finding& finding = record.finding;
+  finding.series = number;
+  finding.cases = {.planned = static_cast<std::size_t>(h5::read_number<std::int64_t>(group, "cases_planned")),
+                   .run = record.cases.size()};
+  finding.judgement.pairwise = h5::read_column<double>(group, "pairwise");
+}
+
 }  // namespace
 
 std::vector<char> study_h5(const StudyResult& result, const Provenance& provenance) {
@@ -93,6 +110,7 @@ std::vector<char> study_h5(const StudyResult& result, const Provenance& provenan
   h5::write_text(root, "study_file", absolute_path(study.file));
   const h5::Handle origin = h5::create_group(root, "provenance");
   for (const auto& [name, value] : provenance) h5::write_text(origin, name, value);
+  h5::write_number(root, "findings_planned", std::ssize(study.measurements));
   if (study.scene) {
     const h5::Handle scene = h5::create_group(root, "scene");
     const SceneText& text = study.scene->text();
@@ -123,6 +141,39 @@ std::vector<char> study_h5(const StudyResult& result, const Provenance& provenan
       write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
   }
   return h5::image(root);
+}
+
+ResultRecord stated_h5(const std::string& file) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  ResultRecord all;
+  try {
+    const h5::Handle root = open_when_unlocked(file);
+    if (h5::read_text(root, "format") != format) throw StoreError("its format is not " + std::string(format));
+    all.study = h5::read_text(root, "study");
+    const h5::Handle origin = h5::open_group(root, "provenance");
+    for (const std::string& name : h5::attribute_names(origin)) {
+      all.provenance.emplace_back(name, h5::read_text(origin, name));
+    }
+    const bool of_series = h5::read_text(root, "kind") == "convergence";
+    const h5::Handle groups = h5::open_group(root, of_series ? "series" : "findings");
+    for (const std::string& name : h5::group_names(groups)) {
+      const h5::Handle group = h5::open_group(groups, name);
+      FindingRecord record{all.study, read_stated(group)};
+      record.verdict = name_of(record.finding.judgement.verdict);
+      record.coordinates = read_coordinates(group);
+      of_series ? read_series(group, all.findings.size(), record) : read_points(group, record.finding);
+      all.findings.push_back(std::move(record));
+    }
+    std::int64_t planned = std::ssize(all.findings);
+    h5::read(root, "findings_planned", planned);
+    all.findings_planned = static_cast<std::size_t>(planned);
+  } catch (const StoreLocked&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw StoreError(
+        fmt::format("{}: not a readable result file ({}); name one that acstudy run has written", file, error.what()));
+  }
+  return all;
 }
 
 void read_study_h5(const fs::path& file, StoredCases& stored) {

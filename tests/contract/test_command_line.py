@@ -14,7 +14,7 @@ COMMANDS = re.findall(r"^  ([a-z]+)  ", subprocess.run([ACSTUDY, "--help"], text
 
 class Help(ProgramTest):
     def test_every_command_has_two_examples_that_name_what_it_has(self):
-        self.assertLessEqual({"run", "check", "fit", "bench", "explain", "list", "completion", "man"}, set(COMMANDS))
+        self.assertLessEqual({"run", "check", "compare", "fit", "bench", "explain", "list", "completion", "man"}, set(COMMANDS))
         for command in ("", *COMMANDS):
             with self.subTest(command):
                 done = self.acstudy(*command.split(), "--help")

@@ -8,7 +8,7 @@
 #include "studies/commands/run/runner.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/reading/input_error.hpp"
-#include "studies/storing/result_json.hpp"
+#include "studies/storing/result_record.hpp"
 #include "tests/catch.hpp"
 
 using namespace acstudy;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mms/expression.hpp"
-#include "mms/trigonometric.hpp"
+#include "mms/line/trigonometric.hpp"
 
 namespace acstudy {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mms/adaptive.hpp"
-#include "mms/nonlocal_source.hpp"
+#include "mms/line/adaptive.hpp"
+#include "mms/line/nonlocal_source.hpp"
 
 namespace acstudy {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "studies/running/plan.hpp"
 
 namespace acstudy {

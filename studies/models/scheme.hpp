@@ -11,7 +11,7 @@
 #include "mms/quadrature.hpp"
 #include "mms/scene.hpp"
 #include "mms/source.hpp"
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "solver/rate_matrix.hpp"
 #include "solver/velocity.hpp"
 #include "studies/models/scheme_choice.hpp"

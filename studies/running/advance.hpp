@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "mms/source.hpp"
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "solver/time/implicit.hpp"
 #include "solver/time/integrate.hpp"
 #include "studies/models/operator.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/models/arrangement.hpp"
 #include "studies/running/run_case.hpp"

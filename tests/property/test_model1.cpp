@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "solver/model1.hpp"
+#include "solver/line/model1.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
 #include "tests/kernel_integrals.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mms/scene.hpp"
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "solver/velocity.hpp"
 #include "tests/catch.hpp"
 

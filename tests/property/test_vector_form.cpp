@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/far/far_sweeps.hpp"
+#include "solver/line/far/far_sweeps.hpp"
 #include "studies/models/scheme.hpp"
 #include "studies/running/ensemble/sweep_group.hpp"
 #include "studies/running/run_case.hpp"

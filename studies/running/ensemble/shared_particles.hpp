@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "mms/line/trigonometric.hpp"
 #include "mms/scene.hpp"
-#include "mms/trigonometric.hpp"
-#include "solver/particles.hpp"
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/particles.hpp"
+#include "solver/line/vector/sweeps.hpp"
 #include "studies/running/ensemble/team.hpp"
 #include "studies/running/ensemble/velocity_panels.hpp"
 

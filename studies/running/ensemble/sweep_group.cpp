@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <variant>
 
-#include "solver/far/far_sweeps.hpp"
-#include "solver/vector/clones.hpp"
+#include "solver/line/far/far_sweeps.hpp"
+#include "solver/line/vector/clones.hpp"
 #include "studies/models/kernel_choice.hpp"
 #include "studies/models/scheme.hpp"
 

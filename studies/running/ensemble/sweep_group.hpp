@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/vector/sweeps.hpp"
 #include "solver/velocity.hpp"
 #include "studies/cases/case.hpp"
 #include "studies/running/ensemble/shared_particles.hpp"

@@ -35,8 +35,8 @@ const FarSweeps& far_sweeps() {
   return chosen;
 }
 
-bool far_pays(const UpwindSweep& sweep, double neighbors) {
-  switch (sweep.kernel.form) {
+bool upwind_far_pays(SweepKernel::Form kernel, double neighbors) {
+  switch (kernel) {
     case SweepKernel::Form::inverse:
       return neighbors >= 160.0;
     case SweepKernel::Form::cubic_spline:
@@ -46,10 +46,8 @@ bool far_pays(const UpwindSweep& sweep, double neighbors) {
   }
 }
 
-bool far_pays(const SymmetricSweep& sweep, double neighbors) {
-  const bool both = sweep.local.u != nullptr && sweep.nonlocal.u != nullptr;
-  return sweep.kernel.form == SweepKernel::Form::cubic_spline && sweep.panels.terms == 0 &&
-         neighbors >= (both ? 256.0 : 208.0);
+bool symmetric_far_pays(SweepKernel::Form kernel, double neighbors, bool both) {
+  return kernel == SweepKernel::Form::cubic_spline && neighbors >= (both ? 256.0 : 208.0);
 }
 
 std::ptrdiff_t range_size(std::ptrdiff_t count, double neighbors) {

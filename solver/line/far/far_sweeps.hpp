@@ -32,12 +32,13 @@ struct FarSweeps {
 /// Those of the instruction set of sweeps().
 const FarSweeps& far_sweeps();
 
-/// True if the sweep has a far form and it is the faster one at a mean of `neighbors` on a side: kernels whose cell
-/// moments are polynomials, velocities of few modes.
+/// True if a sweep has a far form and it is the faster one at a mean of `neighbors` on a side: kernels whose cell
+/// moments are polynomials. A symmetric one has it for velocities of few modes, and not on panels.
 ///
 /// The crossover is measured, by bench/sweep_benchmark.cpp.
-bool far_pays(const UpwindSweep& sweep, double neighbors);
-bool far_pays(const SymmetricSweep& sweep, double neighbors);
+bool upwind_far_pays(SweepKernel::Form kernel, double neighbors);
+/// @param both  of a sweep for both divergences
+bool symmetric_far_pays(SweepKernel::Form kernel, double neighbors, bool both);
 
 /// How many particles a range should have: parts of `count` as equal as multiples of eight can be, each of some four
 /// windows of `neighbors` on a side, since filling the first window takes as long as to sum a quarter as many, and of

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "mms/gsl_status.hpp"
-#include "mms/line/nonlocal_source.hpp"
+#include "mms/line/point_fields.hpp"
 
 namespace acstudy {
 

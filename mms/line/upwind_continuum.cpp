@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "mms/line/nonlocal_source.hpp"
+#include "mms/line/point_fields.hpp"
+#include "mms/nonlocal_source.hpp"
 
 namespace acstudy {
 
@@ -16,8 +17,9 @@ class UpwindSource : public NonlocalSource {
   UpwindSource(const Scene& scene, const NonlocalModel& model, Rule rule, Look look)
       : NonlocalSource(scene, model, std::move(rule)), look_(look) {}
 
-  void place(std::span<const double> x) override {
-    place_particles(x);
+  void place(const Points& points) override {
+    place_particles(points);
+    const std::span<const double> x = points.line();
     const std::size_t m = rule_.size();
     for (auto* values : {&y_, &u_y_, &u_x_y_}) values->resize(x.size() * m);
     for (std::size_t j = 0; j < x.size(); ++j) {

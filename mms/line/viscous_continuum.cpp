@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "mms/line/nonlocal_source.hpp"
+#include "mms/line/point_fields.hpp"
+#include "mms/nonlocal_source.hpp"
 
 namespace acstudy {
 
@@ -16,8 +17,9 @@ class ViscousSource : public NonlocalSource {
   ViscousSource(const Scene& scene, const NonlocalModel& model, Rule rule, Rule viscous)
       : NonlocalSource(scene, model, std::move(rule)), viscous_(std::move(viscous)) {}
 
-  void place(std::span<const double> x) override {
-    place_particles(x);
+  void place(const Points& points) override {
+    place_particles(points);
+    const std::span<const double> x = points.line();
     const std::size_t m = rule_.size(), v = viscous_.size();
     for (auto* values : {&midpoint_, &y_, &u_y_, &u_x_y_}) values->resize(2 * m * x.size());
     for (auto* values : {&r_, &u_x_r_}) values->resize(2 * v * x.size());

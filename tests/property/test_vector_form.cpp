@@ -377,7 +377,7 @@ TEST_CASE("A run in the vector form ends where the readable one does, whatever t
             REQUIRE(plan(c).form->together);
             const CaseResult vector = result_of(c, false), readable = result_of(c, true);
             CHECK(relative_gap(vector.u, readable.u) <= 1e-12);
-            CHECK(relative_gap(vector.x, readable.x) <= 1e-14);
+            CHECK(relative_gap(vector.x.coordinates, readable.x.coordinates) <= 1e-14);
             CHECK(vector.steps == readable.steps);
             CHECK(vector.work.pairs == readable.work.pairs);
             CHECK(vector.against_bound.first_step == readable.against_bound.first_step);

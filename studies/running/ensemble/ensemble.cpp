@@ -45,8 +45,10 @@ class Ensemble {
       m.result.against_bound = m.bound.result();
       share_time(m, seconds);
       if (!m.put_off && !(m.running && interrupted_)) {
-        conclude(m.result, m.c, *m.growth, m.values.u.values(), m.t, m.solution_at_first,
-                 [&](double time) { return particles_->positions(time); });
+        conclude(
+            m.result, m.c, *m.growth, m.values.u.values(), m.t, m.solution_at_first,
+            [&](double time) { return particles_->positions(time); },
+            [&](const Points& x) { return widths_on_line(x.line(), scene_.period()); });
         count_work(m);
         m.result.completed = true;
       }

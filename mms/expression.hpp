@@ -123,11 +123,8 @@ class Expression {
     const FixedPoints* fixed = nullptr;
     std::size_t begin = 0;
     std::initializer_list<double> rest;
-    std::span<const std::size_t> nodes;  ///< of which values are wanted;
-    Vectors values;                      ///< where they go
-    Vectors gradient = {};               ///< of the result
-    Vectors by_parameter = {};
-    std::span<double> divergence = {};
+    std::span<const std::size_t> nodes;  ///< what is wanted of these: values,
+    Request out;                         ///< and derivatives where they are those of the result
   };
   void run(const Task& task) const;
   unsigned depends() const;

@@ -339,19 +339,7 @@ double Scene::max_relative_velocity() const {
 }
 
 Trajectories::Trajectories(const Scene& scene, std::vector<double> start) : scene_(scene), x_(std::move(start)) {
-  if (!scene.flow()) return;
-  at_start_.emplace(*scene.flow(), Points::blocks(x_, scene.dimension()));
-  if (scene.dimension() == 1) angle_ = scene.flow()->angle(scene.period() / std::numbers::pi);
-}
-
-void Trajectories::at(double t, std::size_t begin, std::span<double> x, const PhasesOut& phases) const {
-  if (angle_) {
-    scene_.flow()->evaluate(*at_start_, *angle_, begin, {t}, phases.sine, phases.cosine);
-    phases_of_angles(scene_.period(), x, phases);
-  } else {
-    at(t, begin, x);
-    acstudy::phases(x, scene_.period(), phases);
-  }
+  if (scene.flow()) at_start_.emplace(*scene.flow(), Points::blocks(x_, scene.dimension()));
 }
 
 std::span<const double> Trajectories::at(double t) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "mms/expression.hpp"
-#include "mms/line/trigonometric.hpp"
 #include "mms/points.hpp"
 
 namespace acstudy {
@@ -129,18 +128,15 @@ class Trajectories {
 
   /// True if positions are known in closed form, each on its own.
   bool closed_form() const { return at_start_.has_value(); }
-  /// True if positions are computed from their phases, x = period/pi atan2(p, q): on a line alone.
-  bool by_phases() const { return angle_.has_value(); }
   /// Positions of the particles from number `begin` on, at time t.  @pre closed_form()
   void at(double t, std::size_t begin, const Vectors& x) const { scene_.flow()->evaluate(*at_start_, begin, {t}, x); }
-  /// The same with their phases.  @pre the scene is of a line
-  void at(double t, std::size_t begin, std::span<double> x, const PhasesOut& phases) const;
+
+ protected:
+  const Scene& scene_;
+  std::optional<Expression::FixedPoints> at_start_;  ///< of the flow in closed form
 
  private:
-  const Scene& scene_;
-  std::vector<double> x_;                            ///< at time t_, shape [d, N]
-  std::optional<Expression::FixedPoints> at_start_;  ///< of the flow in closed form
-  std::optional<Expression::Angle> angle_;           ///< of a flow that is period/pi atan2(p, q)
+  std::vector<double> x_;  ///< at time t_, shape [d, N]
   double t_ = 0.0;
 };
 

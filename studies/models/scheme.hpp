@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Any scheme behind one interface: the place where the choices of a study become types.
+/// Any scheme on a line behind one interface: the place where the choices of a study become types.
 
 #include <cstddef>
 #include <memory>

@@ -13,9 +13,9 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/far/far_sweeps.hpp"
-#include "solver/particles.hpp"
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/far/far_sweeps.hpp"
+#include "solver/line/particles.hpp"
+#include "solver/line/vector/sweeps.hpp"
 
 namespace {
 

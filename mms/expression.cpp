@@ -1,13 +1,11 @@
-#include "mms/expression.hpp"
+/// @file
+/// Expressions: a tape run over points.
 
-#include <muParser.h>
+#include "mms/expression.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <numbers>
 
 #include "mms/vector_math.hpp"
 
@@ -18,180 +16,20 @@ namespace {
 using Op = Expression::Op;
 using Node = Expression::Node;
 
-struct Function {
-  const char* name;
-  Op op;
-};
-constexpr Function unary_functions[] = {
-    {"sin", Op::sin},   {"cos", Op::cos},   {"tan", Op::tan},   {"asin", Op::asin}, {"acos", Op::acos},
-    {"atan", Op::atan}, {"sinh", Op::sinh}, {"cosh", Op::cosh}, {"tanh", Op::tanh}, {"exp", Op::exp},
-    {"log", Op::log},   {"sqrt", Op::sqrt}, {"abs", Op::abs},
-};
-constexpr Function binary_functions[] = {{"atan2", Op::atan2}, {"min", Op::min}, {"max", Op::max}};
-
-/// The tape being recorded. muParser's callbacks are plain functions, so they find it here; what muParser takes for the
-/// value of a subexpression is the index of its node.
-thread_local std::vector<Node>* recording = nullptr;
-
-double record(Node node) {
-  auto& tape = *recording;
-  if (node.op != Op::constant && node.op != Op::variable) node.depends = tape[node.a].depends | tape[node.b].depends;
-  const auto same = std::find_if(tape.begin(), tape.end(), [&](const Node& old) {
-    return old.op == node.op && old.a == node.a && old.b == node.b &&
-           std::memcmp(&old.constant, &node.constant, sizeof(double)) == 0;
-  });
-  if (same != tape.end()) return static_cast<double>(same - tape.begin());
-  tape.push_back(node);
-  return static_cast<double>(tape.size() - 1);
-}
-
-template <Op op>
-double record_unary(double a) {
-  return record({.op = op, .a = static_cast<int>(a), .b = static_cast<int>(a)});
-}
-template <Op op>
-double record_binary(double a, double b) {
-  return record({.op = op, .a = static_cast<int>(a), .b = static_cast<int>(b)});
-}
-double same_node(double a) { return a; }
-
-/// muParser's hook for number literals.
-int record_number(const char* text, int* position, double* value) {
-  if (!(std::isdigit(static_cast<unsigned char>(*text)) || *text == '.')) return 0;
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text, text + std::strlen(text), number);
-  if (error != std::errc()) {
-    throw ExpressionError(static_cast<std::size_t>(*position), "a number that double precision cannot hold");
-  }
-  *value = record({.op = Op::constant, .constant = number});
-  *position += static_cast<int>(end - text);
-  return 1;
-}
-
-template <std::size_t... i>
-void define_functions(mu::Parser& parser, std::index_sequence<i...>) {
-  (parser.DefineFun(unary_functions[i].name, record_unary<unary_functions[i].op>, false), ...);
-}
-
-std::string explain(const mu::ParserError& error, const std::vector<std::string>& variables) {
-  std::string token = error.GetToken();
-  token.erase(token.find_last_not_of(' ') + 1);
-  const std::string shown = in_quotes(token);
-  const auto functions = Expression::function_names();
-  switch (error.GetCode()) {
-    case mu::ecUNASSIGNABLE_TOKEN: {
-      if (std::find(functions.begin(), functions.end(), token) != functions.end()) {
-        return "the function " + shown + " needs its argument in parentheses";
-      }
-      std::string names;
-      for (const auto& name : variables) names += name + ", ";
-      return "unknown name " + shown + "; it may use " + names + "pi, e and the usual functions";
-    }
-    case mu::ecUNEXPECTED_EOF:
-      return "the expression ends too early";
-    case mu::ecMISSING_PARENS:
-      return "a closing parenthesis is missing";
-    case mu::ecUNEXPECTED_PARENS:
-      return "unexpected parenthesis " + shown;
-    case mu::ecUNEXPECTED_OPERATOR:
-      return "unexpected operator " + shown;
-    case mu::ecUNEXPECTED_VAL:
-    case mu::ecUNEXPECTED_VAR:
-      return "unexpected value " + shown + "; an operator is missing before it";
-    case mu::ecUNEXPECTED_FUN:
-      return "unexpected function " + shown + "; an operator is missing before it";
-    case mu::ecUNEXPECTED_ARG_SEP:
-      return "unexpected comma";
-    case mu::ecTOO_MANY_PARAMS:
-      return "too many arguments for " + shown;
-    case mu::ecTOO_FEW_PARAMS:
-      return "too few arguments for " + shown;
-    case mu::ecEMPTY_EXPRESSION:
-      return "the expression is empty";
-    default:
-      return "syntax error near " + shown;
-  }
-}
-
-}  // namespace
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t whole = 80;
-  std::size_t shown = 60;
-  if (text.size() <= whole) return "\"" + std::string(text) + "\"";
-  while (shown > 0 && (static_cast<unsigned char>(text[shown]) & 0xC0U) == 0x80U) --shown;  // no part of a UTF-8 letter
-  return "\"" + std::string(text.substr(0, shown)) + "...\" (" + std::to_string(text.size()) + " letters)";
-}
-
-std::vector<std::string> Expression::function_names() {
-  std::vector<std::string> names;
-  for (const auto& function : unary_functions) names.emplace_back(function.name);
-  for (const auto& function : binary_functions) names.emplace_back(function.name);
-  return names;
-}
-
-Expression::Expression(const std::string& text, const std::vector<std::string>& variables) : text_(text) {
-  if (text.find_first_not_of(" \t\n\r") == std::string::npos) throw ExpressionError(0, "the expression is empty");
-  if (text.size() > most_letters) {
-    throw ExpressionError(0, "the expression " + in_quotes(text) + " is too long; the most is " +
-                                 std::to_string(most_letters) + " letters: write a shorter one");
-  }
-  if (const auto at = text.find_first_of("?:=<>!&|,;"); at != std::string::npos && text[at] != ',') {
-    throw ExpressionError(at, std::string("unexpected \"") + text[at] + "\"; an expression has no conditions");
-  }
-  if (const auto at = text.find("**"); at != std::string::npos) {
-    throw ExpressionError(at, "unexpected \"**\"; write h^2 for a power");
-  }
-  recording = &tape_;
-  for (std::size_t i = 0; i < variables.size(); ++i)
-    tape_.push_back({.op = Op::variable, .a = int(i), .depends = 1U << i});
-  try {
-    mu::Parser parser;
-    parser.EnableBuiltInOprt(false);
-    parser.EnableOptimizer(false);
-    parser.ClearFun();
-    parser.ClearConst();
-    parser.ClearInfixOprt();
-    parser.DefineOprt("+", record_binary<Op::add>, mu::prADD_SUB);
-    parser.DefineOprt("-", record_binary<Op::subtract>, mu::prADD_SUB);
-    parser.DefineOprt("*", record_binary<Op::multiply>, mu::prMUL_DIV);
-    parser.DefineOprt("/", record_binary<Op::divide>, mu::prMUL_DIV);
-    parser.DefineOprt("^", record_binary<Op::power>, mu::prPOW, mu::oaRIGHT);
-    parser.DefineInfixOprt("-", record_unary<Op::negate>, mu::prINFIX, false);
-    parser.DefineInfixOprt("+", same_node, mu::prINFIX, false);
-    define_functions(parser, std::make_index_sequence<std::size(unary_functions)>{});
-    parser.DefineFun("atan2", record_binary<Op::atan2>, false);
-    parser.DefineFun("min", record_binary<Op::min>, false);
-    parser.DefineFun("max", record_binary<Op::max>, false);
-    parser.AddValIdent(record_number);
-    parser.DefineConst("pi", record({.op = Op::constant, .constant = std::numbers::pi}));
-    parser.DefineConst("e", record({.op = Op::constant, .constant = std::numbers::e}));
-    for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineConst(variables[i], static_cast<double>(i));
-    parser.SetExpr(text);
-    int results = 0;
-    const double* values = parser.Eval(results);
-    if (results != 1) throw ExpressionError(text.find(','), "unexpected comma");
-    result_ = static_cast<std::size_t>(values[0]);
-  } catch (const mu::ParserError& error) {
-    const int position = error.GetPos();
-    const auto last = static_cast<int>(text.size()) - 1;
-    throw ExpressionError(static_cast<std::size_t>(std::clamp(position, 0, last)), explain(error, variables));
-  }
-}
-
-namespace {
-
 constexpr std::size_t block_size = 128;
 using Block = std::array<double, block_size>;
 
+constexpr std::size_t most_directions = most_dimensions + 1;
+
 /// Values and requested derivatives of every node for one block of points.
 struct Workspace {
-  std::vector<Block> value, by_first, by_second;
-  std::vector<const double*> at;  ///< where the values of each node are: here or with fixed points
+  std::vector<Block> value;
+  std::array<std::vector<Block>, most_directions> by;  ///< each coordinate, and the parameter after them
+  std::vector<const double*> at;                       ///< where the values of each node are: here or with fixed points
 };
 
-ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<const double*>& at, double* v,
-                                        std::size_t n) {
+ACSTUDY_VECTOR_CLONES void compute_values(const Node& node, const std::vector<const double*>& at, double* v,
+                                          std::size_t n) {
   const double *const a = at[node.a], *const b = at[node.b];
   const auto each = [&](auto&& f) {
     for (std::size_t i = 0; i < n; ++i) v[i] = f(i);
@@ -249,9 +87,10 @@ ACSTUDY_VECTOR_CLONES void sweep_values(const Node& node, const std::vector<cons
 
 /// d = derivative of the node, from the derivatives of its operands; the values are already there. A constant operand
 /// is skipped rather than multiplied by zero, so that x^2 at x = 0 never meets log(0).
-ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction,
-                                             const std::vector<const double*>& at, const std::vector<Block>& derivative,
-                                             const double* v, Block& d, std::size_t n) {
+ACSTUDY_VECTOR_CLONES void compute_derivatives(const Node& node, const std::vector<Node>& tape, unsigned direction,
+                                               const std::vector<const double*>& at,
+                                               const std::vector<Block>& derivative, const double* v, Block& d,
+                                               std::size_t n) {
   const double *const a = at[node.a], *const b = at[node.b];
   const Block &da = derivative[node.a], &db = derivative[node.b];
   const bool varies_a = (tape[node.a].depends & direction) != 0, varies_b = (tape[node.b].depends & direction) != 0;
@@ -315,95 +154,120 @@ ACSTUDY_VECTOR_CLONES void sweep_derivatives(const Node& node, const std::vector
 
 }  // namespace
 
-Expression::FixedPoints::FixedPoints(const Expression& expression, std::span<const double> x)
-    : values_(expression.tape_.size()) {
+namespace {
+
+/// The bits of Node::depends that stand for coordinates.
+unsigned coordinates(std::size_t dimension) { return (1U << dimension) - 1U; }
+bool of_points_alone(const Node& node, std::size_t dimension) {
+  return node.depends != 0 && (node.depends & ~coordinates(dimension)) == 0;
+}
+
+}  // namespace
+
+Expression::FixedPoints::FixedPoints(const Expression& expression, const Points& x)
+    : dimension_(x.dimension()), values_(expression.tape_.size()) {
   std::vector<bool> needed(expression.tape_.size());
-  for (std::size_t i = 0; i <= expression.result_; ++i) {
+  std::size_t nodes = 0;
+  for (const std::size_t result : expression.results_) {
+    needed[result] = true;
+    nodes = std::max(nodes, result + 1);
+  }
+  for (std::size_t i = 0; i < nodes; ++i) {
     const Node& node = expression.tape_[i];
-    const bool at_end = i == expression.result_ && node.depends == 1U;
-    if (at_end) needed[i] = true;
-    if (node.depends <= 1U || node.op == Op::variable) continue;
+    if ((node.depends & ~coordinates(dimension_)) == 0 || node.op == Op::variable) continue;
     needed[node.a] = needed[node.b] = true;
   }
   Expression part = expression;
   for (std::size_t i = 0; i < needed.size(); ++i) {
-    if (!needed[i] || expression.tape_[i].depends != 1U) continue;
+    if (!needed[i] || !of_points_alone(expression.tape_[i], dimension_)) continue;
     values_[i].resize(x.size());
-    part.result_ = i;
-    part.evaluate(x, {}, {values_[i], {}, {}});
+    part.results_ = {i};
+    part.evaluate(x, {}, {.value = values_[i]});
   }
 }
 
 void Expression::evaluate(const FixedPoints& points, std::size_t begin, std::initializer_list<double> rest,
-                          std::span<double> value) const {
-  run({.count = value.size(), .fixed = &points, .begin = begin, .rest = rest, .values = {{result_, value}}});
+                          const Vectors& value) const {
+  run({.dimension = points.dimension_,
+       .count = value.size(),
+       .fixed = &points,
+       .begin = begin,
+       .rest = rest,
+       .nodes = results_,
+       .out = {.value = value}});
 }
 
 void Expression::evaluate(const FixedPoints& points, Angle angle, std::size_t begin, std::initializer_list<double> rest,
                           std::span<double> p, std::span<double> q) const {
-  run({.count = p.size(), .fixed = &points, .begin = begin, .rest = rest, .values = {{angle.p, p}, {angle.q, q}}});
-}
-
-void Expression::evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const {
-  run({.count = x.size(),
-       .x = x.data(),
+  const std::size_t nodes[] = {angle.p, angle.q};
+  run({.dimension = points.dimension_,
+       .count = p.size(),
+       .fixed = &points,
+       .begin = begin,
        .rest = rest,
-       .values = {{result_, out.value}},
-       .by_first = out.by_first,
-       .by_second = out.by_second});
+       .nodes = nodes,
+       .out = {.value = {p, q}}});
 }
 
-void Expression::run(const Sweep& sweep) const {
+void Expression::evaluate(const Points& x, std::initializer_list<double> rest, const Request& out) const {
+  run({.dimension = x.dimension(), .count = x.size(), .x = x, .rest = rest, .nodes = results_, .out = out});
+}
+
+void Expression::run(const Task& task) const {
   thread_local Workspace workspace;
-  const bool first = !sweep.by_first.empty(), second = !sweep.by_second.empty();
-  std::size_t nodes = 0;
-  for (const Sweep::Value& wanted : sweep.values) nodes = std::max(nodes, wanted.node + 1);
+  const std::size_t dimension = task.dimension;
+  const Request& out = task.out;
+  const unsigned of_points = coordinates(dimension);
+  // Derivatives that are wanted: those by the directions `first` to `last`.
+  const bool by_coordinates = !out.gradient.empty() || !out.divergence.empty();
+  const std::size_t first = by_coordinates ? 0 : dimension, last = dimension + (out.by_parameter.empty() ? 0 : 1);
+  const std::size_t nodes = *std::max_element(task.nodes.begin(), task.nodes.end()) + 1;
   if (workspace.value.size() < nodes) workspace.value.resize(nodes);
-  if (first && workspace.by_first.size() < nodes) workspace.by_first.resize(nodes);
-  if (second && workspace.by_second.size() < nodes) workspace.by_second.resize(nodes);
+  for (std::size_t v = first; v < last; ++v) {
+    if (workspace.by[v].size() < nodes) workspace.by[v].resize(nodes);
+  }
   if (workspace.at.size() < nodes) workspace.at.resize(nodes);
-  auto &value = workspace.value, &by_first = workspace.by_first, &by_second = workspace.by_second;
+  auto& value = workspace.value;
+  auto& by = workspace.by;
   auto& at = workspace.at;
 
-  // Of blocks only what is used is filled: a source is swept over a few samples in every step.
-  const std::size_t width = std::min(block_size, (sweep.count + vector_width - 1) / vector_width * vector_width);
+  // Of blocks only what is used is filled: a source is computed at a few samples in every step.
+  const std::size_t width = std::min(block_size, (task.count + vector_width - 1) / vector_width * vector_width);
   const auto fill = [width](Block& block, double with) { std::fill_n(block.begin(), width, with); };
-  const auto derive = [&](std::size_t i, unsigned direction, std::vector<Block>& derivative, std::size_t n) {
+  const auto derive = [&](std::size_t i, std::size_t v, std::size_t n) {
     const Node& node = tape_[i];
-    if ((node.depends & direction) == 0) {
-      fill(derivative[i], 0.0);
+    if ((node.depends >> v & 1U) == 0) {
+      fill(by[v][i], 0.0);
     } else if (node.op == Op::variable) {
-      fill(derivative[i], 1.0);
+      fill(by[v][i], 1.0);
     } else {
-      sweep_derivatives(node, tape_, direction, at, derivative, at[i], derivative[i], n);
+      compute_derivatives(node, tape_, 1U << v, at, by[v], at[i], by[v][i], n);
     }
   };
   const auto spread = [&](Block& block) { fill(block, block[0]); };
 
-  // Nodes that do not depend on x once per call, the others once per block of points.
+  // Nodes that do not depend on the point once per call, the others once per block of points.
   for (std::size_t i = 0; i < nodes; ++i) {
     const Node& node = tape_[i];
     at[i] = value[i].data();
-    if (node.depends & 1U) {
-      if (first && node.op == Op::variable) fill(by_first[i], 1.0);
-      if (second && node.op == Op::variable) fill(by_second[i], 0.0);
+    if (node.depends & of_points) {
+      for (std::size_t v = first; v < last && node.op == Op::variable; ++v) derive(i, v, vector_width);
       continue;
     }
     if (node.op == Op::constant) fill(value[i], node.constant);
-    if (node.op == Op::variable && static_cast<std::size_t>(node.a) <= sweep.rest.size()) {
-      fill(value[i], *(sweep.rest.begin() + node.a - 1));
+    if (node.op == Op::variable && node.a - dimension < task.rest.size()) {
+      fill(value[i], *(task.rest.begin() + (node.a - dimension)));
     }
-    sweep_values(node, at, value[i].data(), vector_width);
+    compute_values(node, at, value[i].data(), vector_width);
     spread(value[i]);
-    if (first) fill(by_first[i], 0.0);
-    if (second) {
-      derive(i, 2U, by_second, vector_width);
-      spread(by_second[i]);
+    for (std::size_t v = first; v < last; ++v) {
+      derive(i, v, vector_width);
+      if (v == dimension) spread(by[v][i]);
     }
   }
 
-  for (std::size_t begin = 0; begin < sweep.count; begin += block_size) {
-    const std::size_t here = std::min(block_size, sweep.count - begin);
+  for (std::size_t begin = 0; begin < task.count; begin += block_size) {
+    const std::size_t here = std::min(block_size, task.count - begin);
     // Whole vectors only: a remainder in scalar arithmetic would make f(x) depend on where in the array x stands.
     const std::size_t n = (here + vector_width - 1) / vector_width * vector_width;
     const auto known = [&](std::size_t i, const double* values) {
@@ -415,28 +279,42 @@ void Expression::run(const Sweep& sweep) const {
     };
     for (std::size_t i = 0; i < nodes; ++i) {
       const Node& node = tape_[i];
-      if ((node.depends & 1U) == 0) continue;
-      if (sweep.fixed != nullptr && node.depends == 1U) {
-        const std::vector<double>& values = sweep.fixed->values_[i];
-        if (!values.empty()) known(i, values.data() + sweep.begin + begin);
+      if ((node.depends & of_points) == 0) continue;
+      if (task.fixed != nullptr && of_points_alone(node, dimension)) {
+        const std::vector<double>& values = task.fixed->values_[i];
+        if (!values.empty()) known(i, values.data() + task.begin + begin);
       } else if (node.op == Op::variable) {
-        known(i, sweep.x + begin);
+        known(i, task.x[node.a].data() + begin);
       } else {
-        sweep_values(node, at, value[i].data(), n);
-        if (first) derive(i, 1U, by_first, n);
-        if (second) derive(i, 2U, by_second, n);
+        compute_values(node, at, value[i].data(), n);
+        for (std::size_t v = first; v < last; ++v) derive(i, v, n);
       }
     }
-    for (const auto& [node, out] : sweep.values) {
-      if (!out.empty()) std::copy_n(at[node], here, out.begin() + begin);
+    for (std::size_t k = 0; k < out.value.dimension(); ++k) {
+      if (!out.value.empty()) std::copy_n(at[task.nodes[k]], here, out.value[k].begin() + begin);
     }
-    if (first) std::copy_n(by_first[result_].begin(), here, sweep.by_first.begin() + begin);
-    if (second) std::copy_n(by_second[result_].begin(), here, sweep.by_second.begin() + begin);
+    for (std::size_t v = 0; v < out.gradient.dimension() && !out.gradient.empty(); ++v) {
+      std::copy_n(by[v][task.nodes[0]].begin(), here, out.gradient[v].begin() + begin);
+    }
+    for (std::size_t k = 0; k < out.by_parameter.dimension() && !out.by_parameter.empty(); ++k) {
+      std::copy_n(by[dimension][task.nodes[k]].begin(), here, out.by_parameter[k].begin() + begin);
+    }
+    for (std::size_t v = 0; v < dimension && !out.divergence.empty(); ++v) {
+      const Block& slope = by[v][task.nodes[v]];
+      double* const sum = out.divergence.data() + begin;
+      for (std::size_t j = 0; j < here; ++j) sum[j] = v == 0 ? slope[j] : sum[j] + slope[j];
+    }
   }
 }
 
+unsigned Expression::depends() const {
+  unsigned depends = 0;
+  for (const std::size_t result : results_) depends |= tape_[result].depends;
+  return depends;
+}
+
 std::optional<Expression::Angle> Expression::angle(double factor) const {
-  std::size_t i = result_;
+  std::size_t i = results_.front();
   const auto constant = [&](int node) { return tape_[node].op == Op::constant; };
   for (;;) {
     const Node& node = tape_[i];
@@ -462,7 +340,7 @@ std::optional<Expression::Angle> Expression::angle(double factor) const {
 double Expression::operator()(std::initializer_list<double> variables) const {
   double values[4] = {0.0, 0.0, 0.0, 0.0}, value = 0.0;
   std::copy(variables.begin(), variables.end(), values);
-  evaluate({values, 1}, {values[1], values[2], values[3]}, {.value = {&value, 1}, .by_first = {}, .by_second = {}});
+  evaluate({values, 1}, {values[1], values[2], values[3]}, {.value = {&value, 1}});
   // The sign of a NaN says nothing and differs between processors.
   return std::isnan(value) ? std::abs(value) : value;
 }

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "mms/points.hpp"
+
 namespace acstudy {
 
 /// A text in quotes for a message: of one with more than 80 letters the first 60, and how many there are.
@@ -26,38 +28,41 @@ class ExpressionError : public std::runtime_error {
 
 /// An expression such as "cos(2*x)/3".
 ///
-/// muParser reads the text; its operators do not compute but record a tape, which is then swept over blocks of points.
-/// The same sweep propagates first derivatives (forward mode), hence exact to round-off.
+/// muParser reads the text; its operators do not compute but record a tape, which is then run over blocks of points.
+/// The same run propagates first derivatives (forward mode), hence exact to round-off.
 /// Immutable after construction, so shared freely between threads.
 class Expression {
  public:
   /// @param text       operators + - * / ^, parentheses, numbers, pi, e, and the functions of `function_names()`; at
   /// most
   ///                   `most_letters` letters
-  /// @param variables  the names that may occur, at most 4
+  /// @param variables  the names that may occur, at most 4: coordinates first, then what is the same at all points
+  /// @param components  of a vector: so many expressions, separated by commas
   /// @throws ExpressionError
-  Expression(const std::string& text, const std::vector<std::string>& variables);
+  Expression(const std::string& text, const std::vector<std::string>& variables, std::size_t components = 1);
 
   static constexpr std::size_t most_letters = 10'000;
 
   const std::string& text() const { return text_; }
-  bool depends_on(std::size_t variable) const { return (tape_[result_].depends >> variable & 1U) != 0; }
-  bool is_constant() const { return tape_[result_].depends == 0; }
+  std::size_t components() const { return results_.size(); }
+  bool depends_on(std::size_t variable) const { return (depends() >> variable & 1U) != 0; }
+  bool is_constant() const { return depends() == 0; }
 
-  /// The value at one point, the variables in their declared order.
+  /// The value, of a vector the first component, at one point, the variables in their declared order.
   double operator()(std::initializer_list<double> variables) const;
 
-  /// What to compute of f(x, p) at every x: the value, and where the span is not empty the derivatives.
+  /// What to compute of f(x, p) at every point x: what is not empty.
   struct Request {
-    std::span<double> value;      ///< f
-    std::span<double> by_first;   ///< df/dx, the first variable
-    std::span<double> by_second;  ///< df/dp, the second variable
+    Vectors value;                 ///< f
+    Vectors gradient;              ///< of a scalar f: df/dx, by each coordinate
+    Vectors by_parameter;          ///< df/dp, by the first variable after the coordinates
+    std::span<double> divergence;  ///< of a vector f; on a line the same as its gradient
   };
 
-  /// Sweeps over points x of the first variable, the others (`rest`) being the same for all points.
-  void evaluate(std::span<const double> x, std::initializer_list<double> rest, const Request& out) const;
+  /// Computes f at points x; the variables that are no coordinates (`rest`) are the same at all of them.
+  void evaluate(const Points& x, std::initializer_list<double> rest, const Request& out) const;
 
-  /// The operands of an expression that is factor * atan2(p, q), if it is one.
+  /// The operands of an expression that is factor * atan2(p, q), if it is one; of a vector the first component.
   struct Angle {
     std::size_t p, q;  ///< nodes
   };
@@ -66,9 +71,9 @@ class Expression {
   /// Points x that stay, with all that can be computed of an expression from x alone. Copies the points.
   class FixedPoints;
 
-  /// The value at fixed points from number `begin` on, the variables after the first given.
+  /// The value at fixed points from number `begin` on, the variables after the coordinates given.
   void evaluate(const FixedPoints& points, std::size_t begin, std::initializer_list<double> rest,
-                std::span<double> value) const;
+                const Vectors& value) const;
   /// The same for the operands of an angle.
   void evaluate(const FixedPoints& points, Angle angle, std::size_t begin, std::initializer_list<double> rest,
                 std::span<double> p, std::span<double> q) const;
@@ -111,33 +116,31 @@ class Expression {
 
  private:
   friend class FixedPoints;
-  /// What a sweep has to compute at `count` points, which begin at `x` or with number `begin` of fixed ones.
-  struct Sweep {
-    std::size_t count;
-    const double* x = nullptr;
+  /// What a run has to compute at `count` points, which are `x` or those from number `begin` of fixed ones on.
+  struct Task {
+    std::size_t dimension, count;
+    Points x = {};
     const FixedPoints* fixed = nullptr;
     std::size_t begin = 0;
     std::initializer_list<double> rest;
-    struct Value {
-      std::size_t node;
-      std::span<double> out;  ///< empty: not wanted
-    };
-    std::initializer_list<Value> values;
-    std::span<double> by_first = {}, by_second = {};  ///< of the result
+    std::span<const std::size_t> nodes;  ///< what is wanted of these: values,
+    Request out;                         ///< and derivatives where they are those of the result
   };
-  void run(const Sweep& sweep) const;
+  void run(const Task& task) const;
+  unsigned depends() const;
 
   std::string text_;
   std::vector<Node> tape_;
-  std::size_t result_ = 0;
+  std::vector<std::size_t> results_;  ///< nodes of the components
 };
 
 class Expression::FixedPoints {
  public:
-  FixedPoints(const Expression& expression, std::span<const double> x);
+  FixedPoints(const Expression& expression, const Points& x);
 
  private:
   friend class Expression;
+  std::size_t dimension_;
   std::vector<std::vector<double>> values_;  ///< of each node that depends on x alone and is used beyond that
 };
 

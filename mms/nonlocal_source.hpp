@@ -4,6 +4,8 @@
 /// What the sources of nonlocal models share: velocities at points, and the terms along trajectories.
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,22 +15,29 @@ namespace acstudy {
 
 using Values = std::vector<double>;
 
-/// Velocities at a set of points: c_hat and its derivative, b and its derivative; the latter empty where nothing moves.
+/// out_j += a_j b_j, the scalar product of vectors.
+inline void add_products(const Points& a, const Points& b, std::span<double> out) {
+  for (std::size_t k = 0; k < a.dimension(); ++k) {
+    for (std::size_t j = 0; j < out.size(); ++j) out[j] += a[k][j] * b[k][j];
+  }
+}
+
+/// Velocities at a set of points: c_hat and b, shape [d, N], and their derivatives, beyond a line divergences; those of
+/// b empty where nothing moves.
 struct Velocities {
   Values c_hat, c_hat_prime, b, b_prime;
 
-  void evaluate(const Scene& scene, std::span<const double> x) {
-    c_hat.resize(x.size());
+  void evaluate(const Scene& scene, const Points& x) {
+    const std::size_t d = x.dimension();
+    c_hat.resize(d * x.size());
     c_hat_prime.resize(x.size());
-    scene.c(x, c_hat, c_hat_prime);
+    scene.c(x, Vectors::blocks(c_hat, d), c_hat_prime);
     if (scene.standing()) return;
-    b.resize(x.size());
+    b.resize(d * x.size());
     b_prime.resize(x.size());
-    scene.b(x, b, b_prime);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      c_hat[i] -= b[i];
-      c_hat_prime[i] -= b_prime[i];
-    }
+    scene.b(x, Vectors::blocks(b, d), b_prime);
+    for (std::size_t i = 0; i < b.size(); ++i) c_hat[i] -= b[i];
+    for (std::size_t i = 0; i < b_prime.size(); ++i) c_hat_prime[i] -= b_prime[i];
   }
 };
 
@@ -41,20 +50,19 @@ class NonlocalSource : public Source {
   std::int64_t quadrature_points() const override { return quadrature_points_; }
 
  protected:
-  void place_particles(std::span<const double> x) {
-    x_.assign(x.begin(), x.end());
+  void place_particles(const Points& x) {
+    x_.assign(x);
     at_x_.evaluate(scene_, x);
-    for (auto* values : {&u_, &u_x_, &u_t_}) values->resize(x.size());
+    u_x_.resize(x.size(), x.dimension());
+    for (auto* values : {&u_, &u_t_}) values->resize(x.size());
   }
   /// f_j = u_t + b u_x, plus b' u if the divergence is local.
   void material_terms(double t, std::span<double> f) {
     scene_.u(x_, t, u_, u_x_, u_t_);
     std::copy(u_t_.begin(), u_t_.end(), f.begin());
     if (scene_.standing()) return;
-    for (std::size_t j = 0; j < f.size(); ++j) {
-      f[j] += at_x_.b[j] * u_x_[j];
-      if (!model_.nonlocal_divergence) f[j] += at_x_.b_prime[j] * u_[j];
-    }
+    add_products(Points::blocks(at_x_.b, u_x_.dimension), u_x_, f);
+    for (std::size_t j = 0; j < f.size() && !model_.nonlocal_divergence; ++j) f[j] += at_x_.b_prime[j] * u_[j];
   }
   bool nonlocal_divergence() const { return model_.nonlocal_divergence && !scene_.standing(); }
 
@@ -62,47 +70,9 @@ class NonlocalSource : public Source {
   NonlocalModel model_;
   Rule rule_;
   Velocities at_x_;
-  Values x_, u_, u_x_, u_t_;
+  PointArray x_, u_x_;
+  Values u_, u_t_;
   std::int64_t quadrature_points_ = 0;
 };
-
-/// A field and its derivative at a point.
-struct PointValue {
-  double value = 0.0, slope = 0.0;
-};
-
-/// The fields of a scene at single points, at the time t.
-class PointFields {
- public:
-  PointFields(const Scene& scene, double t) : scene_(scene), t_(t) {}
-  PointValue u(double y) const {
-    PointValue p;
-    scene_.u({&y, 1}, t_, {&p.value, 1}, {&p.slope, 1});
-    return p;
-  }
-  PointValue b(double y) const {
-    PointValue p;
-    if (!scene_.standing()) scene_.b({&y, 1}, {&p.value, 1}, {&p.slope, 1});
-    return p;
-  }
-  PointValue c_hat(double y) const {
-    PointValue p;
-    scene_.c({&y, 1}, {&p.value, 1}, {&p.slope, 1});
-    const PointValue particle = b(y);
-    return {p.value - particle.value, p.slope - particle.slope};
-  }
-  /// A gap below which a divided difference is taken as the average of the slope.
-  double small() const { return 1e-3 * scene_.period(); }
-
- private:
-  const Scene& scene_;
-  double t_;
-};
-
-using PointFunction = std::function<PointValue(double)>;
-
-/// (g(right) - g(left)) / (right - left) without cancellation: below `small` the average of g' by a Gauss rule, which
-/// is exact to round-off for waves down to the length `small`.
-double divided_difference(const PointFunction& g, double left, double right, double small);
 
 }  // namespace acstudy

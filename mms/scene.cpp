@@ -16,9 +16,10 @@ namespace acstudy {
 
 namespace {
 
-Expression compile(const char* field, const std::string& text, const std::vector<std::string>& variables) {
+Expression compile(const char* field, const std::string& text, const std::vector<std::string>& variables,
+                   std::size_t components = 1) {
   try {
-    return Expression(text, variables);
+    return Expression(text, variables, components);
   } catch (const ExpressionError& error) {
     throw SceneError(field, error.position, error.what());
   }
@@ -26,83 +27,143 @@ Expression compile(const char* field, const std::string& text, const std::vector
 
 enum class Zero { allowed, refused };
 
-double constant(const char* field, const std::string& text, Zero zero) {
-  const double value = compile(field, text, {})({});
-  if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && zero == Zero::refused)) {
+/// One of each of the components.
+std::vector<double> constants(const char* field, const std::string& text, Zero zero, std::size_t components = 1) {
+  std::vector<double> values(components);
+  const double anywhere = 0.0;
+  compile(field, text, {}, components).evaluate({&anywhere, 1}, {}, {.value = Vectors::blocks(values, components)});
+  for (double& value : values) {
+    if (std::isnan(value)) value = std::abs(value);
+    if (std::isfinite(value) && (value > 0.0 || (value == 0.0 && zero == Zero::allowed))) continue;
     throw SceneError(field, 0,
                      fmt::format("{} = {:.6g}; it must be {} and finite", field, value,
                                  zero == Zero::allowed ? "zero or positive" : "positive"));
   }
-  return value;
+  return values;
 }
 
-/// Points of the period in increasing order, at multiples of the golden ratio: no field of a smaller period is sampled
-/// at its own multiples only, however small that period is.
-std::vector<double> samples(double period) {
+/// The coordinates, and time if the field has one.
+std::vector<std::string> variables(std::size_t dimension, bool time) {
+  std::vector<std::string> names(coordinate_names, coordinate_names + dimension);
+  if (time) names.emplace_back("t");
+  return names;
+}
+
+/// Points of the period, on a line in increasing order, at multiples of the golden ratio: no field of a smaller period
+/// is sampled at its own multiples only, however small that period is. Other coordinates at those of other roots.
+PointArray samples(const std::vector<double>& periods) {
   constexpr int count = 257;
-  std::vector<double> x(count);
-  for (int i = 0; i < count; ++i) x[i] = period * std::fmod(i * std::numbers::phi, 1.0);
-  std::sort(x.begin(), x.end());
+  constexpr double ratios[most_dimensions] = {std::numbers::phi, std::numbers::sqrt2, std::numbers::sqrt3};
+  PointArray x{std::vector<double>(periods.size() * count), periods.size()};
+  for (std::size_t k = 0; k < periods.size(); ++k) {
+    for (int i = 0; i < count; ++i) x(i, k) = periods[k] * std::fmod(i * ratios[k], 1.0);
+  }
+  std::sort(x.coordinates.begin(), x.coordinates.begin() + count);
   return x;
 }
 
-/// The other points at which fields are looked at: those where uniform particles start at most of the usual N.
-std::vector<double> usual_starts(double period) {
-  constexpr int count = 2560;
-  std::vector<double> x(count);
-  for (int i = 0; i < count; ++i) x[i] = period * i / count;
+/// The other points at which fields are looked at: those where uniform particles start at most of the usual N; in a box
+/// fewer a side.
+constexpr std::size_t starts_on_side[most_dimensions] = {2560, 60, 15};
+PointArray usual_starts(const std::vector<double>& periods) {
+  const std::size_t side = starts_on_side[periods.size() - 1];
+  std::size_t count = 1, turn = 1;
+  for (std::size_t k = 0; k < periods.size(); ++k) count *= side;
+  PointArray x{std::vector<double>(periods.size() * count), periods.size()};
+  for (std::size_t k = 0; k < periods.size(); ++k, turn *= side) {
+    for (std::size_t i = 0; i < count; ++i) {
+      x(i, k) = periods[k] * static_cast<double>(i / turn % side) / static_cast<double>(side);
+    }
+  }
   return x;
 }
 
-std::string at_place(double x, double t, const Expression& field) {
-  return fmt::format("x = {:.6g}{}", x, field.depends_on(1) ? fmt::format(", t = {:.6g}", t) : "");
+std::string at_place(const Points& x, std::size_t i, double t, const Expression& field) {
+  return place_of(x, i) + (field.depends_on(x.dimension()) ? fmt::format(", t = {:.6g}", t) : "");
+}
+
+bool is_zero(const Expression& field, std::size_t dimension) {
+  if (!field.is_constant()) return false;
+  const std::vector<double> origin(dimension, 0.0);
+  std::vector<double> value(field.components());
+  field.evaluate(Points::blocks(origin, dimension), {0.0}, {.value = Vectors::blocks(value, field.components())});
+  return std::all_of(value.begin(), value.end(), [](double one) { return one == 0.0; });
 }
 
 /// Fails if the field or one of its derivatives is not finite at one of the points.
-void check_finite(const char* name, const Expression& field, std::span<const double> x, double t) {
-  std::vector<double> value(x.size()), by_x(x.size()), by_t(field.depends_on(1) ? x.size() : 0);
-  field.evaluate(x, {t}, {value, by_x, by_t});
-  const auto check = [&](const std::vector<double>& values, const std::string& what, const char* must) {
+void check_finite(const char* name, const Expression& field, const Points& x, double t) {
+  const std::size_t count = x.size(), dimension = x.dimension(), components = field.components();
+  const bool is_vector = components > 1;
+  std::vector<double> value(components * count), by_t(field.depends_on(dimension) ? count : 0);
+  std::vector<double> slopes((is_vector ? 1 : dimension) * count);
+  field.evaluate(x, {t},
+                 {.value = Vectors::blocks(value, components),
+                  .gradient = is_vector ? Vectors() : Vectors::blocks(slopes, dimension),
+                  .by_parameter = by_t,
+                  .divergence = is_vector ? std::span(slopes) : std::span<double>()});
+  const auto check = [&](std::span<const double> values, const std::string& what, const char* must) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isfinite(values[i])) continue;
       const double shown = std::isnan(values[i]) ? std::abs(values[i]) : values[i];
-      throw SceneError(name, 0, fmt::format("{} is {} at {}; {}", what, shown, at_place(x[i], t, field), must));
+      throw SceneError(name, 0, fmt::format("{} is {} at {}; {}", what, shown, at_place(x, i, t, field), must));
     }
   };
   constexpr const char* smooth = "sources are made of it: write a field that has a derivative there";
-  check(value, name, "it must be finite everywhere");
-  check(by_x, fmt::format("the derivative of {} by x", name), smooth);
+  for (std::size_t k = 0; k < components; ++k) {
+    check(std::span(value).subspan(k * count, count), is_vector ? fmt::format("component {} of {}", k + 1, name) : name,
+          "it must be finite everywhere");
+  }
+  if (is_vector) return check(slopes, fmt::format("the divergence of {}", name), smooth);
+  for (std::size_t k = 0; k < dimension; ++k) {
+    check(std::span(slopes).subspan(k * count, count),
+          fmt::format("the derivative of {} by {}", name, coordinate_names[k]), smooth);
+  }
   check(by_t, fmt::format("the derivative of {} by t", name), smooth);
 }
 
-/// Fails if the field has a pole where it is largest: if a millionth of the period beside it is a thousand times less.
-void check_bounded(const char* name, const Expression& field, std::span<const double> x, double t, double period) {
-  const auto size = [&](double at) {
-    double value = 0.0;
-    field.evaluate({&at, 1}, {t}, {{&value, 1}, {}, {}});
-    return std::abs(value);
-  };
-  std::vector<double> values(x.size());
-  field.evaluate(x, {t}, {values, {}, {}});
-  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  const auto top = std::max_element(values.begin(), values.end(), smaller);
-  const double here = x[static_cast<std::size_t>(top - values.begin())];
-  // Golden-section search for the largest size in the two cells around it, down to the last digits.
-  double left = here - period / static_cast<double>(x.size()), right = here + period / static_cast<double>(x.size());
-  while (right - left > 4e-16 * period) {
-    const double part = (right - left) / (1.0 + std::numbers::phi), a = left + part, b = right - part;
-    if (!(left < a && a < b && b < right)) break;
-    (size(a) < size(b) ? left : right) = size(a) < size(b) ? a : b;
+/// Fails if the field has a pole where it is largest: if a millionth of the period beside it, along one of the
+/// coordinates, it is a thousand times less.
+void check_bounded(const char* name, const Expression& field, const Points& x, double t,
+                   const std::vector<double>& periods) {
+  const std::size_t components = field.components();
+  std::vector<double> values(components * x.size()), sizes(x.size(), 0.0);
+  field.evaluate(x, {t}, {.value = Vectors::blocks(values, components)});
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    double& size = sizes[i % x.size()];
+    size = std::hypot(size, values[i]);
   }
-  const double peak = size(here) > size(left) ? here : left, most = size(peak);
-  constexpr double apart = 1e-6, too_much = 1e3;
-  const double beside = std::max(size(peak - apart * period), size(peak + apart * period));
-  if (std::isfinite(most) && most <= too_much * beside) return;
-  throw SceneError(
-      name, 0,
-      fmt::format("{} has a pole at {}: it grows to {:.3g} there, from {:.3g} at {:.1g} beside; write a field "
-                  "that is bounded",
-                  name, at_place(peak, t, field), most, beside, apart * period));
+  const auto top = static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<double> place;
+  for (std::size_t k = 0; k < periods.size(); ++k) place.push_back(x[k][top]);
+  for (std::size_t k = 0; k < periods.size(); ++k) {
+    const auto size = [&](double at) {
+      std::vector<double> point = place, value(components);
+      point[k] = at;
+      field.evaluate(Points::blocks(point, periods.size()), {t}, {.value = Vectors::blocks(value, components)});
+      double norm = 0.0;
+      for (const double one : value) norm = std::hypot(norm, one);
+      return norm;
+    };
+    // Golden-section search for the largest size in the two cells around it, down to the last digits.
+    const double here = place[k], period = periods[k],
+                 cell = period / static_cast<double>(starts_on_side[periods.size() - 1]);
+    double left = here - cell, right = here + cell;
+    while (right - left > 4e-16 * period) {
+      const double part = (right - left) / (1.0 + std::numbers::phi), a = left + part, b = right - part;
+      if (!(left < a && a < b && b < right)) break;
+      (size(a) < size(b) ? left : right) = size(a) < size(b) ? a : b;
+    }
+    const double peak = size(here) > size(left) ? here : left, most = size(peak);
+    constexpr double apart = 1e-6, too_much = 1e3;
+    const double beside = std::max(size(peak - apart * period), size(peak + apart * period));
+    if (std::isfinite(most) && most <= too_much * beside) continue;
+    place[k] = peak;
+    throw SceneError(
+        name, 0,
+        fmt::format("{} has a pole at {}: it grows to {:.3g} there, from {:.3g} at {:.1g} beside; write a field "
+                    "that is bounded",
+                    name, at_place(Points::blocks(place, periods.size()), 0, t, field), most, beside, apart * period));
+  }
 }
 
 }  // namespace
@@ -111,48 +172,55 @@ std::string SceneText::solution() const { return u0 ? fmt::format("u0={}|f={}", 
 
 Scene::Scene(SceneText text)
     : text_(std::move(text)),
-      period_(constant("period", text_.period, Zero::refused)),
-      T_(constant("T", text_.T, Zero::allowed)),
-      c_(compile("c", text_.c, {"x"})) {
+      periods_(constants("period", text_.period, Zero::refused, text_.dimension)),
+      T_(constants("T", text_.T, Zero::allowed).front()),
+      c_(compile("c", text_.c, variables(text_.dimension, false), text_.dimension)) {
+  const auto at_points = variables(dimension(), false), at_times = variables(dimension(), true);
   if (text_.b) {
-    b_ = compile("b", *text_.b, {"x"});
+    b_ = compile("b", *text_.b, at_points, dimension());
     check_periodic("b", *b_);
-    if (b_->is_constant() && (*b_)({0.0}) == 0.0) b_.reset();
+    if (is_zero(*b_, dimension())) b_.reset();
   }
   if (text_.flow) {
     if (!b_) throw SceneError("flow", 0, "a flow without b; particles stand still unless b is given");
-    flow_ = compile("flow", *text_.flow, {"x", "t"});
+    flow_ = compile("flow", *text_.flow, at_times, dimension());
     check_flow();
   }
   check_periodic("c", c_);
-  const std::vector<double> starts = usual_starts(period_);
+  const PointArray starts = usual_starts(periods_);
   const auto check = [&](const char* name, const Expression& field) {
     for (const double t : {0.0, 0.37 * T_, T_}) {
-      check_finite(name, field, samples(period_), t);
+      check_finite(name, field, samples(periods_), t);
       check_finite(name, field, starts, t);
-      check_bounded(name, field, starts, t, period_);
-      if (!field.depends_on(1)) break;
+      check_bounded(name, field, starts, t, periods_);
+      if (!field.depends_on(dimension())) break;
     }
   };
   check("c", c_);
   if (b_) check("b", *b_);
   if (!text_.u0) {
-    u_ = compile("u", text_.u, {"x", "t"});
+    u_ = compile("u", text_.u, at_times);
     check_periodic("u", *u_);
     check("u", *u_);
     return;
   }
-  u0_ = compile("u0", *text_.u0, {"x"});
+  u0_ = compile("u0", *text_.u0, at_points);
   check_periodic("u0", *u0_);
   check("u0", *u0_);
   if (!text_.f) return;
-  f_ = compile("f", *text_.f, {"x", "t"});
+  f_ = compile("f", *text_.f, at_times);
   check_periodic("f", *f_);
   check("f", *f_);
-  if (f_->is_constant() && (*f_)({0.0, 0.0}) == 0.0) f_.reset();
+  if (is_zero(*f_, dimension())) f_.reset();
 }
 
-double Scene::solution_size(std::span<const double> x, double t) const {
+double Scene::volume() const {
+  double volume = 1.0;
+  for (const double period : periods_) volume *= period;
+  return volume;
+}
+
+double Scene::solution_size(const Points& x, double t) const {
   std::vector<double> values(x.size());
   const auto largest = [](std::span<const double> of) {
     double most = 0.0;
@@ -163,7 +231,7 @@ double Scene::solution_size(std::span<const double> x, double t) const {
     u(x, t, values);
     return largest(values);
   }
-  const auto points = samples(period_);
+  const PointArray points = samples(periods_);
   values.resize(points.size());
   initial(points, values);
   double size = largest(values);
@@ -177,51 +245,58 @@ double Scene::solution_size(std::span<const double> x, double t) const {
     size += t * source;
   }
   std::vector<double> slope(points.size());
-  c(points, values, slope);
+  c(points, {}, slope);
   return size * std::exp(t * largest(slope));
 }
 
 void Scene::check_periodic(const char* field, const Expression& expression) const {
-  const auto x = samples(period_);
-  std::vector<double> shifted(x), here(x.size()), there(x.size());
-  for (double& value : shifted) value += period_;
-  for (const double t : {0.0, 0.37 * T_, T_}) {
-    expression.evaluate(x, {t}, {here, {}, {}});
-    expression.evaluate(shifted, {t}, {there, {}, {}});
-    double scale = 0.0, gap = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      for (const auto& [value, at] : {std::pair(here[i], x[i]), std::pair(there[i], shifted[i])}) {
-        if (std::isfinite(value)) continue;
-        throw SceneError(field, 0,
-                         fmt::format("{} is {} at x = {:.6g}; it must be finite everywhere", field,
-                                     std::isnan(value) ? std::abs(value) : value, at));
+  const PointArray x = samples(periods_);
+  const std::size_t components = expression.components();
+  std::vector<double> here(components * x.size()), there(here.size());
+  for (std::size_t k = 0; k < dimension(); ++k) {
+    PointArray shifted = x;
+    for (std::size_t i = 0; i < x.size(); ++i) shifted(i, k) += periods_[k];
+    for (const double t : {0.0, 0.37 * T_, T_}) {
+      expression.evaluate(x, {t}, {.value = Vectors::blocks(here, components)});
+      expression.evaluate(shifted, {t}, {.value = Vectors::blocks(there, components)});
+      double scale = 0.0, gap = 0.0;
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        for (const auto& [value, at] : {std::pair(here[i], Points(x)), std::pair(there[i], Points(shifted))}) {
+          if (std::isfinite(value)) continue;
+          throw SceneError(field, 0,
+                           fmt::format("{} is {} at {}; it must be finite everywhere", field,
+                                       std::isnan(value) ? std::abs(value) : value, place_of(at, i % x.size())));
+        }
+        scale = std::max(scale, std::abs(here[i]));
+        gap = std::max(gap, std::abs(here[i] - there[i]));
       }
-      scale = std::max(scale, std::abs(here[i]));
-      gap = std::max(gap, std::abs(here[i] - there[i]));
-    }
-    if (!(gap <= 1e-9 * scale)) {
-      throw SceneError(
-          field, 0,
-          fmt::format("{0} is not periodic: {0}(x + {1:.6g}) and {0}(x) differ by {2:.3g}", field, period_, gap));
+      if (!(gap <= 1e-9 * scale)) {
+        throw SceneError(field, 0,
+                         fmt::format("{0} is not periodic: {0}({1} + {2:.6g}) and {0}({1}) differ by {3:.3g}", field,
+                                     coordinate_names[k], periods_[k], gap));
+      }
     }
   }
 }
 
 void Scene::check_flow() const {
-  const auto x = samples(period_);
-  std::vector<double> position(x.size()), speed(x.size()), b(x.size());
+  const PointArray x = samples(periods_);
+  const std::size_t d = dimension();
+  std::vector<double> position(d * x.size()), speed(position.size()), b(position.size());
   for (const double t : {0.0, 0.37 * T_, T_}) {
-    flow_->evaluate(x, {t}, {position, {}, speed});
-    this->b(x, b);
+    flow_->evaluate(x, {t}, {.value = Vectors::blocks(position, d), .by_parameter = Vectors::blocks(speed, d)});
+    this->b(x, Vectors::blocks(b, d));
     // Particles may have gathered where b is small.
     double scale = 0.0, gap = 0.0;
     for (const double value : b) scale = std::max(scale, std::abs(value));
-    this->b(position, b);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (t == 0.0 && !(std::abs(position[i] - x[i]) <= 1e-9 * period_)) {
-        throw SceneError(
-            "flow", 0,
-            fmt::format("the flow at t = 0 takes x = {:.6g} to {:.6g}; it must leave it there", x[i], position[i]));
+    this->b(Points::blocks(position, d), Vectors::blocks(b, d));
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      const double from = x.coordinates[i];
+      const std::size_t k = i / x.size();
+      if (t == 0.0 && !(std::abs(position[i] - from) <= 1e-9 * periods_[k])) {
+        throw SceneError("flow", 0,
+                         fmt::format("the flow at t = 0 takes {} = {:.6g} to {:.6g}; it must leave it there",
+                                     coordinate_names[k], from, position[i]));
       }
       const double difference = std::abs(speed[i] - b[i]);
       gap = std::max(gap, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
@@ -232,7 +307,8 @@ void Scene::check_flow() const {
                                    "leave it out to have it integrated",
                                    gap, t));
     }
-    if (!std::is_sorted(position.begin(), position.end()) || !(position.back() < position.front() + period_)) {
+    if (d > 1) continue;
+    if (!std::is_sorted(position.begin(), position.end()) || !(position.back() < position.front() + period())) {
       throw SceneError("flow", 0,
                        fmt::format("the flow does not keep particles in order at t = {:.3g}; it may jump where "
                                    "it wraps around the period",
@@ -244,7 +320,7 @@ void Scene::check_flow() const {
 double Scene::max_relative_velocity() const {
   constexpr int count = 4096;
   std::vector<double> x(count), relative(count), b_values(count, 0.0);
-  for (int i = 0; i < count; ++i) x[i] = period_ * i / count;
+  for (int i = 0; i < count; ++i) x[i] = period() * i / count;
   const auto fill = [&](std::span<const double> points, std::span<double> out, std::span<double> scratch) {
     c(points, out);
     if (!standing()) b(points, scratch);
@@ -252,7 +328,7 @@ double Scene::max_relative_velocity() const {
   };
   fill(x, relative, b_values);
   const auto top = std::max_element(relative.begin(), relative.end());
-  const double middle = x[top - relative.begin()], cell = period_ / count;
+  const double middle = x[top - relative.begin()], cell = period() / count;
   const auto negative = [&](double point) {
     double value = 0.0, scratch = 0.0;
     fill({&point, 1}, {&value, 1}, {&scratch, 1});
@@ -263,30 +339,19 @@ double Scene::max_relative_velocity() const {
 }
 
 Trajectories::Trajectories(const Scene& scene, std::vector<double> start) : scene_(scene), x_(std::move(start)) {
-  if (!scene.flow()) return;
-  at_start_.emplace(*scene.flow(), x_);
-  angle_ = scene.flow()->angle(scene.period() / std::numbers::pi);
-}
-
-void Trajectories::at(double t, std::size_t begin, std::span<double> x, const PhasesOut& phases) const {
-  if (angle_) {
-    scene_.flow()->evaluate(*at_start_, *angle_, begin, {t}, phases.sine, phases.cosine);
-    phases_of_angles(scene_.period(), x, phases);
-  } else {
-    at(t, begin, x);
-    acstudy::phases(x, scene_.period(), phases);
-  }
+  if (scene.flow()) at_start_.emplace(*scene.flow(), Points::blocks(x_, scene.dimension()));
 }
 
 std::span<const double> Trajectories::at(double t) {
   if (t == t_) return x_;
   if (scene_.flow()) {
-    at(t, 0, x_);
+    at(t, 0, Vectors::blocks(x_, scene_.dimension()));
   } else {
     constexpr double tolerance = 1e-14;
     gsl_odeiv2_system system{[](double, const double x[], double dxdt[], void* flow) {
                                const auto& self = *static_cast<const Trajectories*>(flow);
-                               self.scene_.b({x, self.x_.size()}, {dxdt, self.x_.size()});
+                               const std::size_t d = self.scene_.dimension(), entries = self.x_.size();
+                               self.scene_.b(Points::blocks({x, entries}, d), Vectors::blocks({dxdt, entries}, d));
                                return static_cast<int>(GSL_SUCCESS);
                              },
                              nullptr, x_.size(), this};

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mms/adaptive.hpp"
+#include "mms/line/adaptive.hpp"
 #include "mms/nonlocal_source.hpp"
 
 namespace acstudy {
@@ -18,20 +18,24 @@ class LocalSource : public Source {
  public:
   explicit LocalSource(const Scene& scene) : scene_(scene) {}
 
-  void place(std::span<const double> x) override {
-    x_.assign(x.begin(), x.end());
-    for (auto* values : {&c_, &c_prime_, &u_, &u_x_, &u_t_}) values->resize(x.size());
+  void place(const Points& x) override {
+    x_.assign(x);
+    for (auto* values : {&c_, &u_x_}) values->resize(x.size(), x.dimension());
+    for (auto* values : {&c_prime_, &u_, &u_t_}) values->resize(x.size());
     scene_.c(x, c_, c_prime_);
   }
 
   void evaluate(double t, std::span<double> f) override {
     scene_.u(x_, t, u_, u_x_, u_t_);
-    for (std::size_t j = 0; j < f.size(); ++j) f[j] = u_t_[j] + c_[j] * u_x_[j] + c_prime_[j] * u_[j];
+    std::copy(u_t_.begin(), u_t_.end(), f.begin());
+    add_products(c_, u_x_, f);
+    for (std::size_t j = 0; j < f.size(); ++j) f[j] += c_prime_[j] * u_[j];
   }
 
  private:
   const Scene& scene_;
-  Values x_, c_, c_prime_, u_, u_x_, u_t_;
+  PointArray x_, c_, u_x_;
+  Values c_prime_, u_, u_t_;
 };
 
 /// The source of a scene whose solution is not known.
@@ -39,7 +43,7 @@ class GivenSource : public Source {
  public:
   explicit GivenSource(const Scene& scene) : scene_(scene) {}
 
-  void place(std::span<const double> x) override { x_.assign(x.begin(), x.end()); }
+  void place(const Points& x) override { x_.assign(x); }
 
   void evaluate(double t, std::span<double> f) override {
     scene_.sourceless() ? std::fill(f.begin(), f.end(), 0.0) : scene_.f(x_, t, f);
@@ -47,7 +51,7 @@ class GivenSource : public Source {
 
  private:
   const Scene& scene_;
-  Values x_;
+  PointArray x_;
 };
 
 /// The reference: every integral adaptively, straight from its definition.
@@ -56,12 +60,12 @@ class AdaptiveSource : public NonlocalSource {
   AdaptiveSource(const Scene& scene, const NonlocalModel& model, SourceRule rule)
       : NonlocalSource(scene, model, {}), rule_(rule) {}
 
-  void place(std::span<const double> x) override { place_particles(x); }
+  void place(const Points& x) override { place_particles(x); }
 
   void evaluate(double t, std::span<double> f) override {
     material_terms(t, f);
     for (std::size_t j = 0; j < f.size(); ++j) {
-      f[j] += nonlocal_terms_adaptively(scene_, model_, rule_, x_[j], t, quadrature_points_);
+      f[j] += nonlocal_terms_adaptively(scene_, model_, rule_, x_(j, 0), t, quadrature_points_);
     }
   }
 
@@ -72,18 +76,28 @@ class AdaptiveSource : public NonlocalSource {
 /// A source at sample points of the scene, to compare others with.
 class SourceSamples {
  public:
-  SourceSamples(const Scene& scene, Source& source) : x_(count) {
-    for (std::size_t i = 0; i < count; ++i) x_[i] = scene.period() * static_cast<double>(i) / count;
+  SourceSamples(const Scene& scene, Source& source) {
+    constexpr std::size_t steps[most_dimensions] = {1, 23, 37};  // beyond a line a lattice
+    x_.resize(count, scene.dimension());
+    for (std::size_t k = 0; k < x_.dimension; ++k) {
+      for (std::size_t i = 0; i < count; ++i) {
+        x_(i, k) = scene.periods()[k] * static_cast<double>(i * steps[k] % count) / count;
+      }
+    }
     source.place(x_);
     Velocities velocity;
     velocity.evaluate(scene, x_);
-    Values u(count), u_x(count), u_t(count);
+    Values u(count), u_t(count);
+    PointArray u_x;
+    u_x.resize(count, x_.dimension);
     for (const double fraction : {0.0, 0.5, 1.0}) {
       Sample& sample = samples_.emplace_back(Sample{fraction * scene.T(), Values(count)});
       source.evaluate(sample.t, sample.f);
       scene.u(x_, sample.t, u, u_x, u_t);
       for (std::size_t i = 0; i < count; ++i) {
-        const double flux = std::abs(velocity.c_hat[i] * u_x[i]) + std::abs(velocity.c_hat_prime[i] * u[i]);
+        double flux = 0.0;
+        for (std::size_t k = 0; k < x_.dimension; ++k) flux += std::abs(velocity.c_hat[k * count + i] * u_x(i, k));
+        flux += std::abs(velocity.c_hat_prime[i] * u[i]);
         scale_ = std::max({scale_, std::abs(sample.f[i]), std::abs(u_t[i]) + flux});
       }
     }
@@ -111,7 +125,7 @@ class SourceSamples {
     double t;
     Values f;
   };
-  Values x_;
+  PointArray x_;
   std::vector<Sample> samples_;
   double scale_ = 0.0;
 };

@@ -49,7 +49,7 @@ class Source {
  public:
   virtual ~Source() = default;
   /// Takes note of where the particles are and of the velocities there; once where they stand still.
-  virtual void place(std::span<const double> x) = 0;
+  virtual void place(const Points& x) = 0;
   /// f_j = f(x_j, t).  @pre place() was called
   virtual void evaluate(double t, std::span<double> f) = 0;
   /// Integrand evaluations so far.

@@ -8,7 +8,7 @@
 #include <concepts>
 #include <stdexcept>
 
-#include "solver/cells.hpp"
+#include "solver/line/cells.hpp"
 
 namespace acstudy {
 

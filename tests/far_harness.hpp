@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/model1.hpp"
-#include "solver/model2.hpp"
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/model1.hpp"
+#include "solver/line/model2.hpp"
+#include "solver/line/vector/sweeps.hpp"
 #include "tests/irregular_particles.hpp"
 #include "tests/velocities.hpp"
 

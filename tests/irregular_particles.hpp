@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 
 namespace acstudy::test {
 

@@ -178,3 +178,13 @@ class ProgramTest(unittest.TestCase):
     def assert_bad_input(self, done, message):
         """Exit code 2, this one line, and nothing else."""
         self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"acstudy: {message}\n"))
+
+    def fit(self, table, *arguments):
+        self.write("table.csv", table)
+        return self.acstudy("fit", "table.csv", *arguments)
+
+    def fitted(self, table, *arguments, code):
+        """What `acstudy fit --json` says of a table, with this exit code."""
+        done = self.fit(table, "--json", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (code, ""), done.stdout)
+        return strict_json(done.stdout)

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "solver/model1.hpp"
-#include "solver/model2.hpp"
+#include "solver/line/model1.hpp"
+#include "solver/line/model2.hpp"
 #include "solver/time/integrate.hpp"
 
 namespace {

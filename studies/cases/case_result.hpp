@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mms/points.hpp"
 #include "solver/velocity.hpp"
 #include "studies/cases/stored.hpp"
 
@@ -18,7 +19,7 @@ struct LastState {
   std::int64_t step = 0;  ///< steps done; 0 where the run went to its end
   double time = std::numeric_limits<double>::quiet_NaN();
   std::int64_t particle = -1;                               ///< the one that gave the run away
-  double place = std::numeric_limits<double>::quiet_NaN();  ///< its position
+  double place = std::numeric_limits<double>::quiet_NaN();  ///< its position, beyond a line the first coordinate
   double error_linf = std::numeric_limits<double>::quiet_NaN();
   double error_l1 = std::numeric_limits<double>::quiet_NaN(), error_l2 = std::numeric_limits<double>::quiet_NaN();
 };
@@ -72,9 +73,10 @@ struct CaseResult : PartSeconds {
 
   /// Fields at T, or the last finite ones of a run that was given up, shape [N]. Where no solution is known, u_exact is
   /// empty, or the reference at the particles.
-  std::vector<double> x, u, u_exact;
+  PointArray x;
+  std::vector<double> u, u_exact;
 
-  /// All of it: numbers, texts, and fields [N]. This list alone says what is stored of a result, and read back.
+  /// All of it: numbers, texts, and fields. This list alone says what is stored of a result, and read back.
   template <class Result, class Visit>
   static void stored(Result& r, Visit&& visit) {
     const bool bounded = r.against_bound.largest > 0.0, beyond = bounded && r.against_bound.first_step > 0;

@@ -4,6 +4,7 @@
 /// What a study asks for: its series of cases and its measurements.
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,31 @@ struct Series {
   /// Value of theory's variable at a case.
   double variable(double h, double delta) const { return theory.variable == "h" ? h : std::max(h, delta); }
   std::string label() const;
+
+  /// What it is, with what its cases have in common. This list alone says what is stored of a series.
+  template <class Visit>
+  void stored(Visit&& visit) const {
+    const Case& first = cases.front();
+    const auto which = [](bool nonlocal) { return std::string(nonlocal ? "nonlocal" : "local"); };
+    visit(Stored{"model"}, static_cast<std::int64_t>(scheme.model->number));
+    visit(Stored{"divergence"}, which(scheme.nonlocal_divergence));
+    visit(Stored{"kernel"}, scheme.kernel.name);
+    if (const auto& parameter = scheme.kernel.row().parameter) {
+      visit(Stored{parameter->name().data()}, scheme.kernel.parameter);  // the end of a literal
+    }
+    if (scheme.model->viscous) visit(Stored{"mu"}, first.mu);
+    visit(Stored{"path"}, path);
+    visit(Stored{.name = "delta", .in_hdf5 = "delta_text"}, delta_text);
+    visit(Stored{"source"}, which(nonlocal_source));
+    visit(Stored{"integrator"}, std::string(first.integrator->name));
+    visit(Stored{.name = "step", .in_hdf5 = "step_text"}, first.step.label());
+    visit(Stored{"start"}, first.start.label());
+    visit(Stored{.name = "stepping", .in_json = !stepping.empty()}, stepping);
+    visit(Stored{"motion"}, std::string(first.scene->standing() ? "standing" : "moving"));
+    visit(Stored{"variable", "theory"}, theory.variable);
+    visit(Stored{"order", "theory"}, theory.order);
+    visit(Stored{"statement", "theory"}, theory.statement);
+  }
 };
 
 /// What a study file asks for: what it measures, and the series of runs that this needs.

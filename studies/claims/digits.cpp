@@ -10,8 +10,8 @@
 #include <limits>
 #include <random>
 
-#include "solver/model1.hpp"
-#include "solver/model2.hpp"
+#include "solver/line/model1.hpp"
+#include "solver/line/model2.hpp"
 
 namespace acstudy {
 

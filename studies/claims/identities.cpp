@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "mms/adaptive.hpp"
+#include "mms/line/adaptive.hpp"
 
 namespace acstudy {
 

@@ -122,7 +122,10 @@ Check check_of(const Subject& subject, const Integrator& integrator, const std::
                const std::string& claim, const std::string& quantity, const std::string& variable) {
   Check check =
       subject.check(fmt::format("{}, {}", subject.scheme.model->step_lemma.name, statement), claim,
-                    {{"integrator", std::string(integrator.name)}, unspoken({"measure", quantity})}, quantity);
+                    {{"integrator", std::string(integrator.name)},
+                     unspoken({"lemma", std::string(subject.scheme.model->step_lemma.name)}),
+                     unspoken({"measure", quantity})},
+                    quantity);
   check.variable = variable;
   if (subject.scheme.control != nullptr) check.be_control("unstable at any step");
   return check;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <span>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "studies/running/plan.hpp"
 
 namespace acstudy {
@@ -88,12 +90,25 @@ std::string explain_reference(const Series& series, const ReferenceLevel& refere
   return out;
 }
 
+/// The plans of the cases of each series, as they are when all are run.
+std::map<const Series*, std::vector<Plan>> plans_of(const Study& study) {
+  std::vector<const Case*> cases;
+  for (const Series& series : study.series) {
+    for (const Case& c : series.cases) cases.push_back(&c);
+  }
+  const std::vector<Plan> all = plan(cases);
+  std::map<const Series*, std::vector<Plan>> plans;
+  auto next = all.begin();
+  for (const Series& series : study.series) {
+    plans[&series].assign(next, next + std::ssize(series.cases));
+    next += std::ssize(series.cases);
+  }
+  return plans;
+}
+
 /// The form that runs each case of a series, coarse to fine: "vector up to N = 640, vector with far sums up to N =
 /// 2560".
-std::string forms_of(const Series& series) {
-  std::vector<const Case*> cases;
-  for (const Case& c : series.cases) cases.push_back(&c);
-  const std::vector<Plan> plans = plan(cases);
+std::string forms_of(std::span<const Plan> plans) {
   std::string out;
   for (std::size_t i = 0; i < plans.size(); ++i) {
     const bool last = i + 1 == plans.size();
@@ -126,6 +141,7 @@ std::string explain(const Study& study) {
     if (said.insert(stepping).second) out += stepping;
   }
 
+  const auto plans = plans_of(study);
   std::size_t count = 0;
   for (const Measurement& measurement : study.measurements) {
     const Series& series = study.series[*measurement.check.series];
@@ -147,7 +163,7 @@ std::string explain(const Study& study) {
       out += fmt::format("  theory: the error does not vanish ({})\n", series.theory.statement);
     }
     if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
-    out += fmt::format("  the gate expects: {}\n  form: {}\n", name_of(series.expected), forms_of(series));
+    out += fmt::format("  the gate expects: {}\n  form: {}\n", name_of(series.expected), forms_of(plans.at(&series)));
     if (series.scheme.model->viscous) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
     out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps",
                        "neighbors", "CFL");

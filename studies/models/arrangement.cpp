@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 
 namespace acstudy {
 

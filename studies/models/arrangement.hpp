@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Arrangements of particles at which operators are studied.
+/// Arrangements of particles on a line at which operators are studied.
 
 #include <array>
 #include <string>

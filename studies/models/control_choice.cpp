@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/controls/model1.hpp"
-#include "solver/controls/model2.hpp"
-#include "solver/controls/sph.hpp"
+#include "solver/line/controls/model1.hpp"
+#include "solver/line/controls/model2.hpp"
+#include "solver/line/controls/sph.hpp"
 #include "studies/models/scheme_on.hpp"
 
 namespace acstudy {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mms/scene.hpp"
-#include "solver/controls/velocity.hpp"
+#include "solver/line/controls/velocity.hpp"
 #include "studies/models/scheme_choice.hpp"
 
 namespace acstudy {

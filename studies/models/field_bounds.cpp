@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "studies/models/operator.hpp"
 
 namespace acstudy {

@@ -13,7 +13,7 @@
 #include <variant>
 
 #include "solver/kernels.hpp"
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/vector/sweeps.hpp"
 #include "studies/models/key.hpp"
 
 namespace acstudy {

@@ -1,7 +1,7 @@
 /// @file
 /// Model I: upwind kernel.
 
-#include "solver/model1.hpp"
+#include "solver/line/model1.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 /// @file
 /// Model II: renormalized SPH with vanishing nonlocal viscosity.
 
-#include "solver/model2.hpp"
+#include "solver/line/model2.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -22,8 +22,8 @@ namespace acstudy {
 class AnyScheme;
 struct SchemeChoice;
 
-/// The fast sweep over moving particles (solver/vector/sweeps.hpp) that has a model's rates; none: they are computed in
-/// the readable form.
+/// The fast sweep over moving particles (solver/line/vector/sweeps.hpp) that has a model's rates; none: they are
+/// computed in the readable form.
 enum class VectorForm { none, upwind, symmetric };
 
 /// What weights are made of: integrals over the cells between neighbors, of the first moment of the kernel, divided by

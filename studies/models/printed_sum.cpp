@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 
 namespace acstudy {
 

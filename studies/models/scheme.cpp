@@ -14,7 +14,7 @@ namespace {
 class ScaledSource : public Source {
  public:
   ScaledSource(std::unique_ptr<Source> source, double factor) : source_(std::move(source)), factor_(factor) {}
-  void place(std::span<const double> x) override { source_->place(x); }
+  void place(const Points& x) override { source_->place(x); }
   void evaluate(double t, std::span<double> f) override {
     source_->evaluate(t, f);
     for (double& value : f) value *= factor_;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Any scheme behind one interface: the place where the choices of a study become types.
+/// Any scheme on a line behind one interface: the place where the choices of a study become types.
 
 #include <cstddef>
 #include <memory>
@@ -11,7 +11,7 @@
 #include "mms/quadrature.hpp"
 #include "mms/scene.hpp"
 #include "mms/source.hpp"
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "solver/rate_matrix.hpp"
 #include "solver/velocity.hpp"
 #include "studies/models/scheme_choice.hpp"

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "solver/controls/velocity.hpp"
-#include "solver/scheme.hpp"
+#include "solver/line/controls/velocity.hpp"
+#include "solver/line/scheme.hpp"
 #include "studies/models/control_choice.hpp"
 #include "studies/models/scheme.hpp"
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "mms/source.hpp"
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "solver/time/implicit.hpp"
 #include "solver/time/integrate.hpp"
 #include "studies/models/operator.hpp"
@@ -190,7 +190,9 @@ CaseResult advance(const Case& c, AnyScheme& scheme, Source& source, const std::
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (interrupted) return result;
 
-  conclude(result, c, growth, u.values(), t, solution_at_first, [&](double time) { return motion.at(time); });
+  conclude(
+      result, c, growth, u.values(), t, solution_at_first, [&](double time) { return motion.at(time); },
+      [&](const Points& x) { return widths_on_line(x.line(), scene.period()); });
   result.work = scheme.work();
   result.quadrature_points = source.quadrature_points();
   result.completed = true;

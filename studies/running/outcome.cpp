@@ -39,30 +39,34 @@ Errors errors_of(std::span<const double> volumes, double whole, std::span<const 
 namespace {
 
 /// The first field of the scene that is not finite at a particle at time t, with its place; empty if there is none.
-std::string field_at_fault(const Scene& scene, std::span<const double> x, double t) {
-  std::vector<double> value(x.size()), by_x(x.size()), by_t(x.size());
+std::string field_at_fault(const Scene& scene, const Points& x, double t) {
+  const std::size_t d = x.dimension();
+  PointArray vectors;
+  vectors.resize(x.size(), d);
+  std::vector<double> value(x.size()), by_t(x.size());
   std::string found;
-  const auto look = [&](const char* what, const std::vector<double>& values) {
-    for (std::size_t j = 0; j < values.size() && found.empty(); ++j) {
-      if (std::isfinite(values[j])) continue;
+  const auto look = [&](const char* what, std::span<const double> values) {
+    for (std::size_t i = 0; i < values.size() && found.empty(); ++i) {
+      if (std::isfinite(values[i])) continue;
+      const std::size_t j = i % x.size();
       found = fmt::format(
-          "{} is {} at x = {:.6g}, t = {:.6g}, where particle {} is; a field must be finite, and have "
-          "finite derivatives, wherever particles come",
-          what, std::isnan(values[j]) ? std::abs(values[j]) : values[j], x[j], t, j);
+          "{} is {} at {}, t = {:.6g}, where particle {} is; a field must be finite, and have finite derivatives, "
+          "wherever particles come",
+          what, std::isnan(values[i]) ? std::abs(values[i]) : values[i], place_of(x, j), t, j);
     }
   };
-  scene.c(x, value, by_x);
-  look("c", value);
-  look("the derivative of c", by_x);
+  scene.c(x, vectors, value);
+  look("c", vectors.coordinates);
+  look("the derivative of c", value);
   if (!scene.standing()) {
-    scene.b(x, value, by_x);
-    look("b", value);
-    look("the derivative of b", by_x);
+    scene.b(x, vectors, value);
+    look("b", vectors.coordinates);
+    look("the derivative of b", value);
   }
   if (scene.solved()) {
-    scene.u(x, t, value, by_x, by_t);
+    scene.u(x, t, value, vectors, by_t);
     look("u", value);
-    look("the derivative of u by x", by_x);
+    look("the derivative of u by x", vectors.coordinates);
     look("the derivative of u by t", by_t);
   } else if (!scene.sourceless()) {
     scene.f(x, t, value);
@@ -78,21 +82,21 @@ std::string failure_in_step(const std::domain_error& error, const CaseResult& re
 }
 
 void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std::span<const double> u, double t,
-              double solution_at_first, const std::function<std::span<const double>(double)>& positions) {
+              double solution_at_first, const std::function<Points(double)>& positions, const Volumes& volumes) {
   const Scene& scene = *c.scene;
   result.blow_up = growth.blow_up();
   const bool to_the_end = result.failure.empty() && result.blow_up.empty();
   result.last = growth.last();
   const double end = to_the_end ? scene.T() : result.blow_up.empty() ? t : result.last.time;
-  const auto x = positions(end);
-  result.x.assign(x.begin(), x.end());
+  const Points x = positions(end);
+  result.x.assign(x);
   result.u.assign(u.begin(), u.end());
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Errors errors{unknown, unknown, unknown};
   if (scene.solved()) {
     result.u_exact.resize(u.size());
     scene.u(x, end, result.u_exact);
-    errors = errors_of(widths_on_line(result.x, scene.period()), scene.period(), result.u, result.u_exact);
+    errors = errors_of(volumes(x), scene.volume(), result.u, result.u_exact);
   }
   result.solution_linf = std::max(solution_at_first, max_norm(result.u_exact));
   if (to_the_end) {
@@ -107,7 +111,7 @@ void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std:
     result.last.error_l2 = errors.l2;
     result.last.step = result.blow_up.empty() ? result.steps : result.last.step;
     result.last.time = end;
-    if (result.last.particle >= 0) result.last.place = result.x[static_cast<std::size_t>(result.last.particle)];
+    if (result.last.particle >= 0) result.last.place = x[0][static_cast<std::size_t>(result.last.particle)];
   }
   if (result.blow_up.empty()) return;
   // A scene whose fields are not finite is no fault of the scheme: look at the stages of the last step.

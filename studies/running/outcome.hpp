@@ -18,6 +18,9 @@ namespace acstudy {
 /// @param x  increasing within one period
 std::vector<double> widths_on_line(std::span<const double> x, double period);
 
+/// The volumes of the cells of particles at points, shape [N].
+using Volumes = std::function<std::vector<double>(const Points& x)>;
+
 /// Norms of u - u_exact, in any dimension; NaN if one of the values is.
 struct Errors {
   double linf = 0.0, l1 = 0.0, l2 = 0.0;  ///< the latter two weighted by volume and divided by that of the whole
@@ -34,6 +37,6 @@ std::string failure_in_step(const std::domain_error& error, const CaseResult& re
 /// @param u          at time t
 /// @param positions  of the particles at a time
 void conclude(CaseResult& result, const Case& c, const GrowthWatch& growth, std::span<const double> u, double t,
-              double solution_at_first, const std::function<std::span<const double>(double)>& positions);
+              double solution_at_first, const std::function<Points(double)>& positions, const Volumes& volumes);
 
 }  // namespace acstudy

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "studies/running/ensemble/shared_particles.hpp"
 #include "studies/running/ensemble/sweep_group.hpp"
@@ -53,13 +55,16 @@ bool vector_takes(const Plan& plan) {
   return false;
 }
 
+bool far_pays(const Plan& plan, bool both) {
+  return SweepGroup::far_pays(*plan.c, plan.velocity->modes.has_value(), both);
+}
+
 bool far_takes(const Plan& plan) {
-  return !asks_for_readable(*plan.c) && !plan.c->scene->standing() &&
-         SweepGroup::far_pays(*plan.c, plan.velocity->modes.has_value());
+  return !asks_for_readable(*plan.c) && !plan.c->scene->standing() && far_pays(plan, false);
 }
 
 constexpr Form table[] = {
-    {"vector with far sums", far_takes, true},
+    {"vector with far sums", far_takes, true, true},
     {"vector", vector_takes, true},
     {"readable with implicit steps", [](const Plan& plan) { return plan.c->integrator->implicit(); }, false},
     {"readable", [](const Plan&) { return true; }, false}};
@@ -78,6 +83,27 @@ std::string pairs_of(const Case& c) {
   return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model->number, c.scheme.kernel.label(), c.delta, c.mu);
 }
 
+/// The first form from `first` on that takes the case.
+const Form* form_of(const Plan& plan, const Form* first) {
+  return std::find_if(first, std::end(table), [&](const Form& form) { return form.takes(plan); });
+}
+
+/// Far sums pay later for two cases that share their sums.
+void agree_on_forms(std::vector<Plan>& plans) {
+  std::map<std::pair<std::string_view, std::string_view>, std::array<std::vector<Plan*>, 2>> by_divergence;
+  for (Plan& plan : plans) {
+    if (plan.form->far)
+      by_divergence[{plan.particles, plan.pairs}][plan.c->scheme.nonlocal_divergence].push_back(&plan);
+  }
+  for (const auto& [key, cases] : by_divergence) {
+    for (std::size_t i = 0; i < std::min(cases[0].size(), cases[1].size()); ++i) {
+      for (Plan* const plan : {cases[0][i], cases[1][i]}) {
+        if (!far_pays(*plan, true)) plan->form = form_of(*plan, plan->form + 1);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::span<const Form> forms() { return table; }
@@ -92,10 +118,11 @@ std::vector<Plan> plan(std::span<const Case* const> cases) {
       if (!velocity) velocity = std::make_shared<const VelocitySeries>(*c->scene);
       plan.velocity = velocity;
     }
-    plan.form = std::find_if(std::begin(table), std::end(table), [&](const Form& form) { return form.takes(plan); });
+    plan.form = form_of(plan, table);
     plan.particles = plan.form->together ? particles_of(*c) : c->key();
     if (plan.form->together) plan.pairs = pairs_of(*c);
   }
+  agree_on_forms(plans);
   return plans;
 }
 

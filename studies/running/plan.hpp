@@ -24,6 +24,7 @@ struct Form {
   std::string_view name;
   bool (*takes)(const Plan&);  ///< false leaves the case to the next form of the table
   bool together;               ///< cases on the same particles are run together, by run_ensemble()
+  bool far = false;            ///< with sums over far neighbors by boxes
 };
 
 /// All forms, the fastest first. The last one, the reference, takes every case.
@@ -39,7 +40,8 @@ struct Plan {
   std::string particles, pairs;
 };
 
-/// A plan for each of the cases, which outlive it. Velocities of a scene are looked at once.
+/// A plan for each of the cases, which outlive it. Velocities of a scene are looked at once. Two cases that share their
+/// sums have one form: that which is the faster for both.
 std::vector<Plan> plan(std::span<const Case* const> cases);
 Plan plan(const Case& c);
 

@@ -11,8 +11,8 @@
 
 namespace acstudy {
 
-std::vector<double> interpolate(std::span<const double> x, std::span<const double> u, double period,
-                                std::span<const double> at) {
+std::vector<double> interpolate_on_line(std::span<const double> x, std::span<const double> u, double period,
+                                        std::span<const double> at) {
   constexpr std::ptrdiff_t side = 4;
   constexpr int coefficients = 6;
   const std::ptrdiff_t count = std::ssize(x);
@@ -36,8 +36,8 @@ std::vector<double> interpolate(std::span<const double> x, std::span<const doubl
   return values;
 }
 
-std::vector<double> values_at(std::span<const double> x, std::span<const double> u, double period,
-                              std::span<const double> at) {
+std::vector<double> values_on_line(std::span<const double> x, std::span<const double> u, double period,
+                                   std::span<const double> at) {
   // Particles that start at the same place stay together, but for round-off of their trajectories.
   constexpr double together = 1e-12;
   const std::size_t stride = x.size() / at.size();
@@ -47,7 +47,7 @@ std::vector<double> values_at(std::span<const double> x, std::span<const double>
       values.push_back(u[j * stride]);
     }
   }
-  return values.size() == at.size() ? values : interpolate(x, u, period, at);
+  return values.size() == at.size() ? values : interpolate_on_line(x, u, period, at);
 }
 
 void compare_with_reference(const Series& series, std::vector<CaseResult>& results) {
@@ -60,11 +60,12 @@ void compare_with_reference(const Series& series, std::vector<CaseResult>& resul
     r.error_linf = r.error_l1 = r.error_l2 = std::numeric_limits<double>::quiet_NaN();
     if (!usable(reference) || !usable(r)) continue;
     const Scene& scene = *series.cases[i].scene;
-    std::vector<double> u_0(r.x.size());
-    scene.initial(start_positions(series.cases[i].start, r.x.size(), scene.period()), u_0);
-    r.u_exact = values_at(reference.x, reference.u, scene.period(), r.x);
+    const std::span<const double> x = Points(r.x).line();
+    std::vector<double> u_0(x.size());
+    scene.initial(start_positions(series.cases[i].start, x.size(), scene.period()), u_0);
+    r.u_exact = values_on_line(Points(reference.x).line(), reference.u, scene.period(), x);
     r.solution_linf = std::max(max_norm(u_0), max_norm(r.u_exact));
-    const Errors errors = errors_of(widths_on_line(r.x, scene.period()), scene.period(), r.u, r.u_exact);
+    const Errors errors = errors_of(widths_on_line(x, scene.period()), scene.period(), r.u, r.u_exact);
     r.error_linf = errors.linf;
     r.error_l1 = errors.l1;
     r.error_l2 = errors.l2;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solver/vector/clones.hpp"
+#include "solver/line/vector/clones.hpp"
 
 namespace acstudy {
 

@@ -26,7 +26,7 @@ constexpr const char* format = "acstudy-bench-1";
 template <class Result, class Visit>
 void for_each_kept(Result& result, Visit&& visit) {
   CaseResult::stored(result, [&]<class T>(const Stored& as, T& value) {
-    if constexpr (!std::is_same_v<std::remove_const_t<T>, std::vector<double>>) {
+    if constexpr (!is_field<T>) {
       if (!as.timed) visit(as, value);
     }
   });
@@ -60,27 +60,12 @@ std::vector<std::int64_t> cases_of(const BenchSeries& series,
 /// Visits what a series is, texts and numbers, with their names.
 template <class Visit>
 void for_each_attribute(const BenchSeries& planned, Visit&& visit) {
-  const Series& series = *planned.series;
-  const Case& first = series.cases.front();
+  const Case& first = planned.series->cases.front();
   visit("study", planned.study->name);
   visit("title", planned.study->title);
-  visit("model", static_cast<std::int64_t>(series.scheme.model->number));
-  visit("divergence", std::string(series.scheme.nonlocal_divergence ? "nonlocal" : "local"));
-  visit("kernel", series.scheme.kernel.name);
-  if (const auto& parameter = series.scheme.kernel.row().parameter) {
-    visit(std::string(parameter->name()).c_str(), series.scheme.kernel.parameter);
-  }
-  if (series.scheme.model->viscous) visit("mu", first.mu);
-  visit("path", series.path);
-  visit("delta", series.delta_text);
-  visit("source", std::string(series.nonlocal_source ? "nonlocal" : "local"));
-  visit("integrator", std::string(first.integrator->name));
-  visit("step", first.step.label());
-  visit("stepping", series.stepping);
-  visit("motion", std::string(first.scene->standing() ? "standing" : "moving"));
+  planned.series->stored([&](const Stored& as, const auto& value) { visit(as.flat().c_str(), value); });
   visit("scene", first.scene->text().name);
   visit("T", first.scene->T());
-  visit("theory_order", series.theory.order);
   visit("threads", static_cast<std::int64_t>(planned.threads));
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "mms/points.hpp"
 #include "studies/storing/store_error.hpp"
 
 namespace acstudy::h5 {
@@ -119,10 +120,11 @@ T read_number(hid_t object, const std::string& name) {
   return value;
 }
 
+/// @param width  how many values an entry of the column has: its shape is [n], or [n, width]
 template <class T>
-void write_column(hid_t group, const std::string& name, std::span<const T> values) {
-  const hsize_t size = values.size();
-  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "make a column");
+void write_column(hid_t group, const std::string& name, std::span<const T> values, std::size_t width = 1) {
+  const hsize_t size = values.size(), shape[] = {size / width, width};
+  const Handle space(H5Screate_simple(width == 1 ? 1 : 2, shape, nullptr), H5Sclose, "make a column");
   const Handle data(H5Dcreate2(group, name.c_str(), native<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                     H5Dclose, "create column " + name);
   if (size > 0)
@@ -140,6 +142,33 @@ std::vector<T> read_column(hid_t group, const std::string& name) {
   return values;
 }
 
+/// The width of a column.
+inline std::size_t width_of_column(hid_t group, const std::string& name) {
+  const Handle data(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "open column " + name);
+  const Handle space(H5Dget_space(data), H5Sclose, "read the shape of " + name);
+  hsize_t shape[H5S_MAX_RANK] = {};
+  const int rank = H5Sget_simple_extent_dims(space, shape, nullptr);
+  if (rank < 0 || rank > 2) throw StoreError("HDF5 could not read the shape of " + name);
+  return rank == 2 ? static_cast<std::size_t>(shape[1]) : 1;
+}
+
+/// Points as a column [N] on a line, [N, d] beyond.
+inline void write_points(hid_t group, const std::string& name, const PointArray& points) {
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < points.dimension; ++k) rows.push_back(Points(points)[k][i]);
+  }
+  write_column<double>(group, name, rows, points.dimension);
+}
+
+inline PointArray read_points(hid_t group, const std::string& name) {
+  const std::vector<double> rows = read_column<double>(group, name);
+  PointArray points;
+  points.resize(rows.size() / width_of_column(group, name), width_of_column(group, name));
+  for (std::size_t i = 0; i < rows.size(); ++i) points(i / points.dimension, i % points.dimension) = rows[i];
+  return points;
+}
+
 /// A number or a text as an attribute, an array as a column.
 template <class T>
 void write(hid_t object, const std::string& name, const T& value) {
@@ -147,6 +176,8 @@ void write(hid_t object, const std::string& name, const T& value) {
     write_text(object, name, value);
   } else if constexpr (std::is_arithmetic_v<T>) {
     write_number(object, name, value);
+  } else if constexpr (std::is_same_v<T, PointArray>) {
+    write_points(object, name, value);
   } else {
     write_column<typename T::value_type>(object, name, value);
   }
@@ -159,8 +190,12 @@ void read(hid_t object, const std::string& name, T& value) {
     if (H5Aexists(object, name.c_str()) > 0) value = read_text(object, name);
   } else if constexpr (std::is_arithmetic_v<T>) {
     if (H5Aexists(object, name.c_str()) > 0) value = read_number<T>(object, name);
-  } else {
-    if (H5Lexists(object, name.c_str(), H5P_DEFAULT) > 0) value = read_column<typename T::value_type>(object, name);
+  } else if (H5Lexists(object, name.c_str(), H5P_DEFAULT) > 0) {
+    if constexpr (std::is_same_v<T, PointArray>) {
+      value = read_points(object, name);
+    } else {
+      value = read_column<typename T::value_type>(object, name);
+    }
   }
 }
 

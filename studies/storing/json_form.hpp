@@ -6,8 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <type_traits>
-#include <vector>
+#include <string_view>
 
 #include "studies/cases/stored.hpp"
 
@@ -16,7 +15,7 @@ namespace acstudy::json_form {
 /// Puts a value of a record in its place; no arrays, which are for HDF5.
 template <class T>
 void put(nlohmann::ordered_json& record, const Stored& as, const T& value) {
-  if constexpr (!std::is_same_v<T, std::vector<double>>) {
+  if constexpr (!is_field<T>) {
     if (as.in_json) (*as.group == '\0' ? record : record[as.group])[as.name] = value;
   }
 }

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "build_info.hpp"
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/vector/sweeps.hpp"
 
 namespace acstudy {
 

@@ -89,23 +89,7 @@ json finding_json(const Finding& finding) {
 json series_json(const Finding& finding, const SeriesResult& result) {
   const Series& series = *result.series;
   json out;
-  out["model"] = series.scheme.model->number;
-  out["divergence"] = series.scheme.nonlocal_divergence ? "nonlocal" : "local";
-  out["kernel"] = series.scheme.kernel.name;
-  if (const auto& parameter = series.scheme.kernel.row().parameter) {
-    out[std::string(parameter->name())] = series.scheme.kernel.parameter;
-  }
-  if (series.scheme.model->viscous) out["mu"] = series.cases.front().mu;
-  out["path"] = series.path;
-  out["delta"] = series.delta_text;
-  out["source"] = series.nonlocal_source ? "nonlocal" : "local";
-  out["integrator"] = series.cases.front().integrator->name;
-  out["step"] = series.cases.front().step.label();
-  out["start"] = series.cases.front().start.label();
-  if (!series.stepping.empty()) out["stepping"] = series.stepping;
-  out["motion"] = series.cases.front().scene->standing() ? "standing" : "moving";
-  out["theory"] = {
-      {"variable", series.theory.variable}, {"order", series.theory.order}, {"statement", series.theory.statement}};
+  series.stored([&out](const Stored& as, const auto& value) { json_form::put(out, as, value); });
   out.update(finding_json(finding));
   out["cases_planned"] = series.cases.size();
   out["cases"] = json::array();

@@ -28,23 +28,9 @@ constexpr const char* format = "acstudy-1";
 void write_series(hid_t parent, const std::string& group_name, const SeriesResult& result, const Finding& verdict) {
   const Series& series = *result.series;
   const h5::Handle group = h5::create_group(parent, group_name);
-  h5::write_number<std::int64_t>(group, "model", series.scheme.model->number);
-  h5::write_text(group, "divergence", series.scheme.nonlocal_divergence ? "nonlocal" : "local");
-  h5::write_text(group, "kernel", series.scheme.kernel.name);
-  if (const auto& parameter = series.scheme.kernel.row().parameter) {
-    h5::write_number(group, std::string(parameter->name()), series.scheme.kernel.parameter);
-  }
-  if (series.scheme.model->viscous) h5::write_number(group, "mu", series.cases.front().mu);
-  h5::write_text(group, "path", series.path);
-  h5::write_text(group, "delta_text", series.delta_text);
-  h5::write_text(group, "source", series.nonlocal_source ? "nonlocal" : "local");
-  h5::write_text(group, "integrator", std::string(series.cases.front().integrator->name));
-  h5::write_text(group, "step_text", series.cases.front().step.label());
-  h5::write_text(group, "start", series.cases.front().start.label());
-  h5::write_text(group, "stepping", series.stepping);
-  h5::write_text(group, "motion", series.cases.front().scene->standing() ? "standing" : "moving");
-  h5::write_text(group, "theory_variable", series.theory.variable);
-  h5::write_text(group, "theory_statement", series.theory.statement);
+  series.stored([&](const Stored& as, const auto& value) {
+    if (as.column() != "theory_order") h5::write(group, as.column(), value);  // of the verdict, which has it
+  });
   h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
   write_verdict(group, verdict);
   h5::write_column<double>(group, "pairwise", verdict.judgement.pairwise);

@@ -41,7 +41,7 @@ struct FakeMachine {
                   result.work.pairs = c.N * c.N;
                   result.seconds = 0.01 * static_cast<double>(c.N);
                   result.pairs_seconds = 0.75 * result.seconds;
-                  result.x = {1.0, 2.0};
+                  result.x.assign(std::vector{1.0, 2.0});
                   return result;
                 },
             .after_round = {}};

@@ -52,7 +52,8 @@ class EditTest(unittest.TestCase):
 
     def test_what_decides_numbers(self):
         for file in ("studies/models/arrangement.cpp", "studies/running/watch.hpp", "studies/cases/case.hpp",
-                     "studies/running/ensemble/team.cpp", "solver/far/far_sweeps_isa.cpp", "mms/source_series.cpp"):
+                     "studies/running/ensemble/team.cpp", "solver/line/far/far_sweeps_isa.cpp",
+                     "mms/line/source_series.cpp"):
             with self.subTest(file):
                 self.assertEqual(self.changed(file), {"numerics", "measurements"})
 

@@ -168,7 +168,7 @@ class Page(ReportTest):
 
 
 def mutant(**changes):
-    return dict(name="model1-tail", file="solver/model1.hpp", what="the outermost cell loses its tail",
+    return dict(name="model1-tail", file="solver/line/model1.hpp", what="the outermost cell loses its tail",
                 expected="caught", outcome="caught", caught=True, as_expected=True, seconds=1.5,
                 caught_by=[{"kind": "test", "name": "moments <1>"}, {"kind": "gate", "name": "fig2: a"},
                            {"kind": "gate", "name": "fig2: b"}]) | changes
@@ -192,7 +192,7 @@ class SeededMistakes(ReportTest):
 
     def test_a_table_says_what_sees_each_mistake(self):
         html = self.section(mutant(), mutant(name="control-comment", **self.survivor))
-        for text in ("1 of 1 seeded mistakes are caught", "1 of 1 harmless changes survive", "solver/model1.hpp",
+        for text in ("1 of 1 seeded mistakes are caught", "1 of 1 harmless changes survive", "solver/line/model1.hpp",
                      "1 test, 2 gates", "test: moments &lt;1&gt;", "gate: fig2: b", "control: must survive"):
             self.assertIn(text, html)
         self.assertIn('class="outcome good"', html)

@@ -8,6 +8,10 @@ from tests.program import ROOT
 ROOMS = ["solver", "mms", "reports/judging", "studies/models", "studies/cases", "studies/reading", "studies/storing",
          "studies/running", "studies/claims", "studies/kinds", "studies/commands"]
 PYTHON_ROOMS = ["reading", "drawing", "writing", "kinds", "pages"]  # of reports/
+# What is of any dimension includes nothing that needs a line.
+ANY_DIMENSION = ["solver/time", "solver/rate_matrix.hpp", "solver/velocity.hpp", "mms/points.?pp", "mms/expression.?pp",
+                 "mms/scene.?pp", "mms/source.hpp", "mms/nonlocal_source.hpp", "studies/cases/case_result.hpp",
+                 "studies/running/outcome.hpp"]
 IMPORT = re.compile(rf"^\s*(?:from|import) ({'|'.join(PYTHON_ROOMS)})\b", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
@@ -46,6 +50,15 @@ class Rooms(unittest.TestCase):
         self.assertEqual(wrong_ways("studies/cases/case.hpp", '#include "studies/running/run_case.hpp"\n'),
                          ["studies/running/run_case.hpp"])
         self.assertEqual(wrong_ways("studies/running/run_case.hpp", '#include "studies/cases/case.hpp"\n'), [])
+
+    def test_what_is_of_any_dimension_includes_nothing_of_a_line(self):
+        files = [file for pattern in ANY_DIMENSION for path in ROOT.glob(pattern)
+                 for file in (path.iterdir() if path.is_dir() else [path])]
+        self.assertGreater(len(files), 14)
+        found = {str(file.relative_to(ROOT)): of_line for file in files
+                 if (of_line := [include for include in INCLUDE.findall(file.read_text(encoding="utf-8"))
+                                 if "/line/" in include])}
+        self.assertEqual(found, {})
 
     def test_no_import_of_a_report_leads_to_a_later_room(self):
         files = [(room, path) for room in PYTHON_ROOMS for path in sorted((ROOT / "reports" / room).rglob("*.py"))]

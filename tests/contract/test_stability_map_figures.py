@@ -7,7 +7,7 @@ import warnings
 
 import numpy as np
 
-from tests.result_files import ReportTest, finding, write
+from tests.result_files import ReportTest, coordinates, finding, write
 
 from drawing import look
 from reading import results
@@ -15,14 +15,14 @@ from kinds import registry
 from kinds.stability_map import findings as stability_map_findings, maps, positivity as smallest_entries, table as sharp_limits
 
 RATIOS, CFL = (0.5, 2.0, 8.0), (0.5, 1.0, 2.0, 4.0)
-GROWTH = stability_map_findings.GROWTH
 
 
 def stability(kind, N, **changes):
     """A finding "Lemma 2.4, <kind>" with N = 48 at every point."""
     values = dict(statement=f"Lemma 2.4, {kind}", subject="Model I, inverse", check="uniform, forward-euler",
-                  test="bounds")
-    return finding(N=(48,) * N, **(values | changes))
+                  test="bounds") | changes
+    of_map = dict(lemma=values["statement"].partition(", ")[0], measure=stability_map_findings.MEASURES[kind])
+    return finding(N=(48,) * N, coordinates=coordinates(values["check"]) | of_map, **values)
 
 
 def on_grid(kind, values, ratios=RATIOS, cfl=CFL, **changes):
@@ -36,7 +36,7 @@ def on_grid(kind, values, ratios=RATIOS, cfl=CFL, **changes):
 def growth_map(values=None, *axes, **changes):
     if values is None:
         values = [[1.0, 1.0, 50.0, 1e300], [1.0, 1.0, 1.0, 2e7], [1.0] * 4]
-    return on_grid("map", values, *axes, quantity=GROWTH, **changes)
+    return on_grid("map", values, *axes, **changes)
 
 
 def limit(kind="max norm", value=(1.0, 1.5, 6.0), lower=(1.0, 1.4, 4.0), ratios=RATIOS, **changes):

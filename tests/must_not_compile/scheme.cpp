@@ -1,7 +1,7 @@
 // What is no scheme is refused where it is used, by the name of what it lacks. Compiled by ctest alone, once for each
 // of the macros; with COMPLETE there is nothing to refuse.
 
-#include "solver/scheme.hpp"
+#include "solver/line/scheme.hpp"
 
 #include <span>
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "solver/controls/model1.hpp"
-#include "solver/controls/model2.hpp"
-#include "solver/controls/sph.hpp"
-#include "solver/model1.hpp"
-#include "solver/model2.hpp"
+#include "solver/line/controls/model1.hpp"
+#include "solver/line/controls/model2.hpp"
+#include "solver/line/controls/sph.hpp"
+#include "solver/line/model1.hpp"
+#include "solver/line/model2.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/models/arrangement.hpp"
 #include "studies/models/control_choice.hpp"

@@ -122,7 +122,7 @@ TEST_CASE("a run without source is that of a case whose source is zero", "[extre
     const CaseResult result = run(case_of(subject, 40, 0.06, 100));
     for (std::size_t j = 0; j < x.size(); ++j) {
       CHECK(end.u[j] == Approx(result.u[j]).margin(1e-13));
-      CHECK(end.x[j] == result.x[j]);
+      CHECK(end.x[j] == result.x.coordinates[j]);
     }
   }
 }

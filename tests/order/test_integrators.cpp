@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "solver/time/integrate.hpp"
 #include "tests/catch.hpp"
 #include "tests/general_tables.hpp"

@@ -95,14 +95,14 @@ TEST_CASE("a solution is interpolated with order 6, on particles at random and a
     std::vector<double> errors;
     for (const std::size_t N : {40U, 80U, 160U, 320U}) {
       const Values x = start_positions(start, N, period);
-      errors.push_back(distance(interpolate(x, smooth(x), period, at), smooth(at)));
+      errors.push_back(distance(interpolate_on_line(x, smooth(x), period, at), smooth(at)));
       if (errors.size() > 1) CHECK(std::log2(errors[errors.size() - 2] / errors.back()) > 5.0);
     }
     CHECK(errors.front() < 2e-3);
     CHECK(errors.back() < 1e-8);
   }
   const Values three = {0.0, 2.0, 4.0};  // a stencil that laps the period
-  CHECK(distance(interpolate(three, {{1.0, 1.0, 1.0}}, period, at), Values(at.size(), 1.0)) < 1e-12);
+  CHECK(distance(interpolate_on_line(three, {{1.0, 1.0, 1.0}}, period, at), Values(at.size(), 1.0)) < 1e-12);
 }
 
 TEST_CASE("particles that nearly coincide do not amplify what their values differ by", "[reference]") {
@@ -110,7 +110,7 @@ TEST_CASE("particles that nearly coincide do not amplify what their values diffe
   for (std::size_t j = 0; j < x.size(); j += 2) u[j] += 1e-3;
   Values between;
   for (std::size_t j = 1; j < x.size(); ++j) between.push_back(0.5 * (x[j - 1] + x[j]));
-  CHECK(distance(interpolate(x, u, period, between), smooth(between)) < 2e-3);
+  CHECK(distance(interpolate_on_line(x, u, period, between), smooth(between)) < 2e-3);
 }
 
 TEST_CASE("a reference with a particle at each place gives its own values", "[reference]") {
@@ -119,11 +119,11 @@ TEST_CASE("a reference with a particle at each place gives its own values", "[re
   u[4] += 1.0;  // an interpolating polynomial would know of its neighbors
   Values expected;
   for (std::size_t j = 0; j < coarse.size(); ++j) expected.push_back(u[4 * j]);
-  CHECK(values_at(x, u, period, coarse) == expected);
+  CHECK(values_on_line(x, u, period, coarse) == expected);
   // 96 is no divisor, and of 80 jittered particles none stands at one of the 320.
   for (const Values& at :
        {start_positions({}, 96, period), start_positions({Start::Kind::jittered, 0.5, 1}, 80, period)}) {
-    CHECK(values_at(x, smooth(x), period, at) == interpolate(x, smooth(x), period, at));
+    CHECK(values_on_line(x, smooth(x), period, at) == interpolate_on_line(x, smooth(x), period, at));
   }
 }
 

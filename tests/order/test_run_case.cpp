@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/models/arrangement.hpp"
 #include "studies/running/run_case.hpp"
@@ -187,7 +187,7 @@ TEST_CASE("a run that blows up stops early, says where, and keeps its last finit
   CHECK(result.last.time == Approx(static_cast<double>(result.last.step) * c.dt));
   REQUIRE(result.last.particle >= 0);
   const auto j = static_cast<std::size_t>(result.last.particle);
-  CHECK(result.last.place == result.x[j]);
+  CHECK(result.last.place == result.x.coordinates[j]);
   CHECK(std::abs(result.u[j]) > GrowthWatch::most);
   CHECK(result.last.error_linf == Approx(std::abs(result.u[j])).epsilon(1e-5));
   CHECK(std::isfinite(result.last.error_l1));

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/model1.hpp"
-#include "solver/model2.hpp"
+#include "solver/line/model1.hpp"
+#include "solver/line/model2.hpp"
 #include "studies/claims/digits.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "solver/far/box_tables.hpp"
-#include "solver/far/exponential_sum.hpp"
-#include "solver/far/far_sweeps.hpp"
+#include "solver/line/far/box_tables.hpp"
+#include "solver/line/far/exponential_sum.hpp"
+#include "solver/line/far/far_sweeps.hpp"
 #include "tests/catch.hpp"
 #include "tests/far_harness.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "solver/kernels.hpp"
-#include "solver/model1.hpp"
+#include "solver/line/model1.hpp"
 #include "tests/catch.hpp"
 #include "tests/kernel_integrals.hpp"
 

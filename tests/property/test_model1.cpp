@@ -1,15 +1,13 @@
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "solver/model1.hpp"
+#include "solver/line/model1.hpp"
 #include "tests/catch.hpp"
-#include "tests/irregular_particles.hpp"
 #include "tests/kernel_integrals.hpp"
-#include "tests/velocities.hpp"
+#include "tests/model_properties.hpp"
 
 using namespace acstudy;
 using Catch::Matchers::WithinRel;
@@ -22,12 +20,6 @@ static_assert(sizeof(ModelI<InverseKernel, NonlocalDivergence>) ==
               sizeof(ModelI<InverseKernel, NoDivergence>) + sizeof(std::vector<double>) + sizeof(PeriodicArray));
 
 namespace {
-
-constexpr double period = 2.0 * std::numbers::pi;
-constexpr std::size_t N = 41;
-constexpr double h = period / N;
-/// From below every gap to nearly half the period.
-constexpr double horizons[] = {1e-6 * h, 0.5 * h, h, 2.5 * h, 7.3 * h, 0.49 * period};
 
 template <class Check>
 void for_each_kernel(Check check) {
@@ -92,6 +84,20 @@ void for_each_divergence(Check check) {
   check(std::string("(2.9)"), LocalDivergence{});
   check(std::string("(2.11)"), NonlocalDivergence{});
 }
+
+struct ModelITested {
+  static void for_each_kernel(auto check) { ::for_each_kernel(check); }
+  static void for_each_divergence(auto check) { ::for_each_divergence(check); }
+  template <class Divergence>
+  static auto placed(const auto& kernel, const std::vector<double>& x, double delta, const PointwiseVelocity& v) {
+    return placed_scheme<Divergence>(kernel, x, delta, v);
+  }
+  template <class Divergence>
+  static auto written_out(const auto& kernel, const std::vector<double>& x, double delta, const PointwiseVelocity& v,
+                          const std::vector<double>& u) {
+    return written_out_rates<Divergence>(kernel, x, delta, v, u);
+  }
+};
 
 }  // namespace
 
@@ -166,102 +172,19 @@ TEST_CASE("Remark 2.1: below every gap Model I is the upwind difference") {
 }
 
 TEST_CASE("Model I's rates are (2.4), (2.9) and (2.11) written out, on both sides") {
-  const auto u = irregular_values(N, 6);
-  const auto v = uneven_velocity();
-  for (const unsigned seed : {1u, 2u}) {
-    const auto x = irregular_positions(N, period, seed);
-    for_each_kernel([&](const std::string& name, auto kernel) {
-      for (const double delta : horizons) {
-        for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
-          INFO(name << ", " << equation << ", delta / h = " << delta / h);
-          auto scheme = placed_scheme<Divergence>(kernel, x, delta, v);
-          // The quadrature in the test reaches 1e-12.
-          CHECK(relative_gap(rates(scheme, u), written_out_rates<Divergence>(kernel, x, delta, v, u)) < 2e-11);
-        });
-      }
-    });
-  }
+  check_rates_are_those_written_out<ModelITested>();
 }
 
 TEST_CASE("Model I does not tell left from right: x -> -x, c -> -c, b -> -b") {
-  const auto x = irregular_positions(N, period, 7);
-  const auto u = irregular_values(N, 8);
-  const std::vector<double> u_mirrored(u.rbegin(), u.rend());
-  std::vector<double> x_mirrored;
-  for (std::size_t j = N; j-- > 0;) x_mirrored.push_back(-x[j]);
-  for_each_kernel([&](const std::string& name, auto kernel) {
-    for (const double delta : horizons) {
-      for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
-        INFO(name << ", " << equation << ", delta / h = " << delta / h);
-        auto here = placed_scheme<Divergence>(kernel, x, delta, uneven_velocity());
-        auto there = placed_scheme<Divergence>(kernel, x_mirrored, delta, reflected(uneven_velocity()));
-        auto mirrored = rates(there, u_mirrored);
-        CHECK(relative_gap({mirrored.rbegin(), mirrored.rend()}, rates(here, u)) < 1e-13);
-        CHECK(relative_gap(mirrored, rates(here, u)) > 1e-3);  // the comparison would notice
-      });
-    }
-  });
+  check_left_is_like_right<ModelITested>();
 }
 
-TEST_CASE("Model I does not depend on the origin of x") {
-  const auto x = irregular_positions(N, period, 9);
-  const auto u = irregular_values(N, 10);
-  for (const double shift : {0.7, -20.0, 100.0 * period}) {
-    auto moved = x;
-    for (double& value : moved) value += shift;
-    for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
-      INFO(equation << ", shift " << shift);
-      auto here = placed_scheme<Divergence>(CubicSplineKernel{}, x, 3.3 * h, uneven_velocity());
-      auto there = placed_scheme<Divergence>(CubicSplineKernel{}, moved, 3.3 * h, translated(uneven_velocity(), shift));
-      // A shift by 100 periods costs 628 / h of the digits of a gap.
-      CHECK(relative_gap(rates(there, u), rates(here, u)) < 1e-11);
-    });
-  }
-}
-
-TEST_CASE("Model I does not depend on which particle is the first") {
-  const auto x = irregular_positions(N, period, 9);
-  const auto u = irregular_values(N, 10);
-  constexpr std::size_t turn = 13;
-  std::vector<double> x_turned, u_turned;
-  for (std::size_t j = 0; j < N; ++j) {
-    x_turned.push_back(j + turn < N ? x[j + turn] : x[j + turn - N] + period);
-    u_turned.push_back(u[(j + turn) % N]);
-  }
-  for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
-    INFO(equation);
-    auto here = placed_scheme<Divergence>(InverseKernel{}, x, 5.3 * h, uneven_velocity());
-    auto there = placed_scheme<Divergence>(InverseKernel{}, x_turned, 5.3 * h, uneven_velocity());
-    const auto rate = rates(here, u);
-    std::vector<double> expected;
-    for (std::size_t j = 0; j < N; ++j) expected.push_back(rate[(j + turn) % N]);
-    CHECK(relative_gap(rates(there, u_turned), expected) < 1e-13);
-  });
+TEST_CASE("Model I does not depend on the origin of x nor on which particle is the first") {
+  check_origin_and_first_particle_are_free<ModelITested>();
 }
 
 TEST_CASE("Model I keeps a constant under constant c: (2.4) at rest, (2.11) in any motion, (2.9) not") {
-  const auto x = irregular_positions(N, period, 11);
-  const std::vector<double> constant(N, 3.0);
-  const auto largest = [](const std::vector<double>& rate) {
-    double value = 0.0;
-    for (const double r : rate) value = std::fmax(value, std::abs(r));
-    return value;
-  };
-  PointwiseVelocity moving = uneven_velocity();
-  moving.c_at = [](double) { return 0.4; };
-  for_each_kernel([&](const std::string& name, auto kernel) {
-    for (const double delta : horizons) {
-      INFO(name << ", delta / h = " << delta / h);
-      for (const double c : {1.0, -0.7}) {
-        auto standing = placed_scheme<NoDivergence>(kernel, x, delta, constant_velocity(c));
-        CHECK(largest(rates(standing, constant)) < 1e-12);
-      }
-      auto nonlocal = placed_scheme<NonlocalDivergence>(kernel, x, delta, moving);
-      CHECK(largest(rates(nonlocal, constant)) < 1e-12);
-      auto local = placed_scheme<LocalDivergence>(kernel, x, delta, moving);
-      CHECK(largest(rates(local, constant)) > 1e-3);
-    }
-  });
+  check_constants_are_kept<ModelITested>();
 }
 
 TEST_CASE("where particles move with the fluid, b = c, Model I has no flux") {

@@ -1,15 +1,13 @@
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "solver/model2.hpp"
+#include "solver/line/model2.hpp"
 #include "tests/catch.hpp"
-#include "tests/irregular_particles.hpp"
 #include "tests/kernel_integrals.hpp"
-#include "tests/velocities.hpp"
+#include "tests/model_properties.hpp"
 
 using namespace acstudy;
 using Catch::Matchers::WithinAbs;
@@ -31,12 +29,7 @@ static_assert(sizeof(ModelII<CubicSplineKernel, NonlocalDivergence>) ==
 
 namespace {
 
-constexpr double period = 2.0 * std::numbers::pi;
-constexpr std::size_t N = 41;
-constexpr double h = period / N;
 constexpr double mu = 1.7;
-/// From below every gap to nearly half the period.
-constexpr double horizons[] = {1e-6 * h, 0.5 * h, h, 2.5 * h, 7.3 * h, 0.49 * period};
 
 template <class Check>
 void for_each_kernel(Check check) {
@@ -113,11 +106,19 @@ std::vector<double> written_out_rates(const K& kernel, const std::vector<double>
   return rate;
 }
 
-double largest(const std::vector<double>& values) {
-  double value = 0.0;
-  for (const double v : values) value = std::fmax(value, std::abs(v));
-  return value;
-}
+struct ModelIITested {
+  static void for_each_kernel(auto check) { ::for_each_kernel(check); }
+  static void for_each_divergence(auto check) { ::for_each_divergence(check); }
+  template <class Divergence>
+  static auto placed(const auto& kernel, const std::vector<double>& x, double delta, const PointwiseVelocity& v) {
+    return placed_scheme<Divergence>(kernel, x, delta, v);
+  }
+  template <class Divergence>
+  static auto written_out(const auto& kernel, const std::vector<double>& x, double delta, const PointwiseVelocity& v,
+                          const std::vector<double>& u) {
+    return written_out_rates<Divergence>(kernel, x, delta, v, u);
+  }
+};
 
 }  // namespace
 
@@ -226,21 +227,7 @@ TEST_CASE("Lemma 3.1's N_j >= 1 is not general: a gap at the end of the horizon 
 }
 
 TEST_CASE("Model II's rates are (3.6), (3.8) and (3.10) written out") {
-  const auto u = irregular_values(N, 6);
-  const auto v = uneven_velocity();
-  for (const unsigned seed : {1u, 2u}) {
-    const auto x = irregular_positions(N, period, seed);
-    for_each_kernel([&](const std::string& name, auto kernel) {
-      for (const double delta : horizons) {
-        for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
-          INFO(name << ", " << equation << ", delta / h = " << delta / h);
-          auto scheme = placed_scheme<Divergence>(kernel, x, delta, v);
-          // The quadrature in the test reaches 1e-12.
-          CHECK(relative_gap(rates(scheme, u), written_out_rates<Divergence>(kernel, x, delta, v, u)) < 2e-11);
-        });
-      }
-    });
-  }
+  check_rates_are_those_written_out<ModelIITested>();
 }
 
 TEST_CASE("the viscous term reaches to the nearest neighbor where the horizon does not") {
@@ -253,71 +240,15 @@ TEST_CASE("the viscous term reaches to the nearest neighbor where the horizon do
 }
 
 TEST_CASE("Model II does not tell left from right: x -> -x, c -> -c, b -> -b") {
-  const auto x = irregular_positions(N, period, 7);
-  const auto u = irregular_values(N, 8);
-  const std::vector<double> u_mirrored(u.rbegin(), u.rend());
-  std::vector<double> x_mirrored;
-  for (std::size_t j = N; j-- > 0;) x_mirrored.push_back(-x[j]);
-  for_each_kernel([&](const std::string& name, auto kernel) {
-    for (const double delta : horizons) {
-      for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
-        INFO(name << ", " << equation << ", delta / h = " << delta / h);
-        auto here = placed_scheme<Divergence>(kernel, x, delta, uneven_velocity());
-        auto there = placed_scheme<Divergence>(kernel, x_mirrored, delta, reflected(uneven_velocity()));
-        auto mirrored = rates(there, u_mirrored);
-        CHECK(relative_gap({mirrored.rbegin(), mirrored.rend()}, rates(here, u)) < 1e-13);
-        CHECK(relative_gap(mirrored, rates(here, u)) > 1e-3);  // the comparison would notice
-      });
-    }
-  });
+  check_left_is_like_right<ModelIITested>();
 }
 
 TEST_CASE("Model II does not depend on the origin of x nor on which particle is the first") {
-  const auto x = irregular_positions(N, period, 9);
-  const auto u = irregular_values(N, 10);
-  for_each_divergence([&]<class Divergence>(const std::string& equation, Divergence) {
-    auto here = placed_scheme<Divergence>(CubicSplineKernel{}, x, 3.3 * h, uneven_velocity());
-    const auto rate = rates(here, u);
-    for (const double shift : {0.7, -20.0, 100.0 * period}) {
-      INFO(equation << ", shift " << shift);
-      auto moved = x;
-      for (double& value : moved) value += shift;
-      auto there = placed_scheme<Divergence>(CubicSplineKernel{}, moved, 3.3 * h, translated(uneven_velocity(), shift));
-      // A shift by 100 periods costs 628 / h of the digits of a gap.
-      CHECK(relative_gap(rates(there, u), rate) < 1e-11);
-    }
-    for (const std::size_t turn : {1u, 13u, 40u}) {
-      INFO(equation << ", first particle " << turn);
-      std::vector<double> x_turned, u_turned, expected;
-      for (std::size_t j = 0; j < N; ++j) {
-        x_turned.push_back(j + turn < N ? x[j + turn] : x[j + turn - N] + period);
-        u_turned.push_back(u[(j + turn) % N]);
-        expected.push_back(rate[(j + turn) % N]);
-      }
-      auto there = placed_scheme<Divergence>(CubicSplineKernel{}, x_turned, 3.3 * h, uneven_velocity());
-      CHECK(relative_gap(rates(there, u_turned), expected) < 1e-13);
-    }
-  });
+  check_origin_and_first_particle_are_free<ModelIITested>();
 }
 
 TEST_CASE("Model II keeps a constant under constant c: (3.6) at rest, (3.10) in any motion, (3.8) not") {
-  const auto x = irregular_positions(N, period, 11);
-  const std::vector<double> constant(N, 3.0);
-  PointwiseVelocity moving = uneven_velocity();
-  moving.c_at = [](double) { return 0.4; };
-  for_each_kernel([&](const std::string& name, auto kernel) {
-    for (const double delta : horizons) {
-      INFO(name << ", delta / h = " << delta / h);
-      for (const double c : {1.0, -0.7}) {
-        auto standing = placed_scheme<NoDivergence>(kernel, x, delta, constant_velocity(c));
-        CHECK(largest(rates(standing, constant)) < 1e-12);
-      }
-      auto nonlocal = placed_scheme<NonlocalDivergence>(kernel, x, delta, moving);
-      CHECK(largest(rates(nonlocal, constant)) < 1e-12);
-      auto local = placed_scheme<LocalDivergence>(kernel, x, delta, moving);
-      CHECK(largest(rates(local, constant)) > 1e-3);
-    }
-  });
+  check_constants_are_kept<ModelIITested>();
 }
 
 TEST_CASE("where particles move with the fluid, b = c, and mu = 0, Model II couples no particles") {

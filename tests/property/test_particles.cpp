@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
 

@@ -5,8 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "mms/line/line_trajectories.hpp"
 #include "mms/scene.hpp"
-#include "solver/particles.hpp"
+#include "solver/line/particles.hpp"
 #include "solver/velocity.hpp"
 #include "tests/catch.hpp"
 
@@ -110,7 +111,7 @@ TEST_CASE("particles come with the phases of their positions, from pieces as fro
     const bool moves_as_angle = text.flow->find('x') != 0 && text.flow != at_rest.flow;
     CHECK(scene.flow()->angle(scene.period() / std::numbers::pi).has_value() == moves_as_angle);
     constexpr std::size_t count = 301;
-    Trajectories trajectories(scene, uniform_positions(count, scene.period()));
+    LineTrajectories trajectories(scene, uniform_positions(count, scene.period()));
     std::vector<double> x(count), C(count), S(count), half_C(count), half_S(count);
     const PhasesOut all{C, S, half_C, half_S};
     trajectories.at(0.6, 0, x, all);

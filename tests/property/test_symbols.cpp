@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mms/source.hpp"
-#include "solver/model1.hpp"
-#include "solver/model2.hpp"
+#include "solver/line/model1.hpp"
+#include "solver/line/model2.hpp"
 #include "solver/time/integrate.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/far/far_sweeps.hpp"
+#include "solver/line/far/far_sweeps.hpp"
 #include "studies/models/scheme.hpp"
 #include "studies/running/ensemble/sweep_group.hpp"
 #include "studies/running/run_case.hpp"
@@ -74,7 +74,7 @@ Swept swept_rates(const Case& c, const std::vector<double>& x, const std::vector
                              .delta = c.delta},
                             team);
   particles.move(0.0);
-  SweepGroup group(c, particles);
+  SweepGroup group(c, particles, plan(c).form->far);
   const auto values = [&] {
     SweptValues v{PeriodicArray(x.size()), PeriodicArray(x.size()), ZeroedVector(x.size() + 16)};
     std::copy(u.begin(), u.end(), v.u.values().begin());
@@ -252,19 +252,8 @@ namespace {
 Case far_case(const std::shared_ptr<const Scene>& scene, int model, const char* kernel) {
   constexpr std::size_t N = 4000;
   const Case c = case_on(scene, model, true, {kernel}, N, 0.1 * scene->period());
-  const SweepKernel::Form form =
-      kernel == std::string("inverse") ? SweepKernel::Form::inverse : SweepKernel::Form::cubic_spline;
-  const double neighbors = c.delta / c.h;
-  if (model == 1) {
-    UpwindSweep sweep{};
-    sweep.kernel.form = form;
-    REQUIRE(far::far_pays(sweep, neighbors));
-  } else {
-    SymmetricSweep sweep{};
-    sweep.kernel.form = form;
-    REQUIRE(far::far_pays(sweep, neighbors));
-  }
-  REQUIRE(far::range_size(c.N, neighbors) < c.N / 2);
+  REQUIRE(plan(c).form->far);
+  REQUIRE(far::range_size(c.N, c.delta / c.h) < c.N / 2);
   return c;
 }
 std::vector<Case> far_cases(const std::shared_ptr<const Scene>& scene) {
@@ -287,6 +276,26 @@ TEST_CASE("A case is run in the first form that takes it", "[vector]") {
     c.readable = true;
     CHECK(form(c) == "readable");
   }
+}
+
+TEST_CASE("Two cases that share their sums have the form that is the faster for both", "[vector]") {
+  const auto scene = random_scene(5);
+  const auto names = [&](double neighbors, int model) {
+    constexpr std::size_t N = 4000;
+    const double delta = neighbors * scene->period() / N;
+    const Case local = case_on(scene, model, false, {"cubic-spline"}, N, delta),
+               nonlocal = case_on(scene, model, true, {"cubic-spline"}, N, delta);
+    const Case* const cases[] = {&local, &nonlocal, &local};
+    std::vector<std::string_view> forms;
+    for (const Plan& one : plan(cases)) forms.push_back(one.form->name);
+    return forms;
+  };
+  using Names = std::vector<std::string_view>;
+  const std::string_view direct = "vector", far = "vector with far sums";
+  CHECK(names(200.0, 2) == Names{direct, direct, direct});
+  CHECK(names(230.0, 2) == Names{direct, direct, far});
+  CHECK(names(230.0, 1) == Names{far, far, far});
+  CHECK(names(260.0, 2) == Names{far, far, far});
 }
 
 TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
@@ -368,7 +377,7 @@ TEST_CASE("A run in the vector form ends where the readable one does, whatever t
             REQUIRE(plan(c).form->together);
             const CaseResult vector = result_of(c, false), readable = result_of(c, true);
             CHECK(relative_gap(vector.u, readable.u) <= 1e-12);
-            CHECK(relative_gap(vector.x, readable.x) <= 1e-14);
+            CHECK(relative_gap(vector.x.coordinates, readable.x.coordinates) <= 1e-14);
             CHECK(vector.steps == readable.steps);
             CHECK(vector.work.pairs == readable.work.pairs);
             CHECK(vector.against_bound.first_step == readable.against_bound.first_step);

@@ -4,7 +4,11 @@ import math
 
 import numpy as np
 
-GROWTH, NORM, SPECTRAL = "max norm of all steps to T", "sharp in the max norm", "sharp in the spectral radius"
+NORM, SPECTRAL = "sharp in the max norm", "sharp in the spectral radius"
+# What the findings of a kind measure, as their coordinates call it.
+MEASURES = {"map": "max norm of all steps to T", "growth curve": "max norm of all steps to t",
+            "positivity": "smallest entry of a step", NORM: "largest CFL number, max norm",
+            SPECTRAL: "largest CFL number, spectral radius"}
 SEARCH_END = 1000.0     # CFL number at which the bisection for a limit ends: a limit of it is none
 CAPPED = 1e299          # norms and bounds are capped at 1e300
 WITHIN = 1 + 1e-6       # round-off of a product of many steps
@@ -16,13 +20,13 @@ def parts(finding):
 
 
 def lemma(finding):
-    return finding.statement.partition(", ")[0]
+    return finding.coordinates.get("lemma", "")
 
 
 def of_kind(study, kind):
-    """The findings of a statement such as "Lemma 2.4, map", whatever the lemma."""
+    """The findings of a kind such as "map", whatever the lemma."""
     return [finding for finding in study.findings
-            if finding.statement.partition(", ")[2] == kind and len(finding.points)]
+            if finding.coordinates.get("measure") == MEASURES[kind] and len(finding.points)]
 
 
 def lemma_suffices(finding):

@@ -15,7 +15,7 @@ from drawing import axes
 from drawing.look import COLORS, DASHES, DEPARTING, WIDTH, Drawing, add_axes, blank, foot_legend, slug, typography
 from kinds.stability_map.panels import COLUMNS, wrapped
 from reading import names
-from kinds.stability_map.findings import (GROWTH, NORM, SEARCH_END, SPECTRAL, WITHIN, allowed_growth, integrator_of, lemma,
+from kinds.stability_map.findings import (NORM, SEARCH_END, SPECTRAL, WITHIN, allowed_growth, integrator_of, lemma,
                                     of_kind, ordered, parts, plane, subject_of)
 
 # Growth relative to what is allowed: the first band is what keeps to it.
@@ -30,7 +30,7 @@ def _shown_arrangement(found):
 
 
 def drawings(study):
-    found = [finding for finding in of_kind(study, "map") if finding.quantity == GROWTH and plane(finding)[2].size]
+    found = [finding for finding in of_kind(study, "map") if plane(finding)[2].size]
     if not found:
         return
     arrangement, allowed = _shown_arrangement(found), allowed_growth(found)

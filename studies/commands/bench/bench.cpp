@@ -26,7 +26,7 @@ std::string difference(const CaseResult& first, const CaseResult& now) {
   std::string found;
   const auto exact = []<class T>(const T& value) {  // texts are equal exactly if values are
     if constexpr (std::is_same_v<T, double>) return fmt::format("{:.17g}", value);
-    if constexpr (!std::is_same_v<T, std::vector<double>>) return fmt::format("{}", value);
+    if constexpr (!is_field<T>) return fmt::format("{}", value);
     return std::string();  // fields are dropped
   };
   CaseResult::stored(first, [&](const Stored&, const auto& value) { before.push_back(exact(value)); });
@@ -43,7 +43,9 @@ std::string difference(const CaseResult& first, const CaseResult& now) {
 }
 
 void drop_fields(CaseResult& result) {
-  for (std::vector<double>* const field : {&result.x, &result.u, &result.u_exact}) *field = {};
+  CaseResult::stored(result, []<class T>(const Stored&, T& value) {
+    if constexpr (is_field<T>) value = {};
+  });
 }
 
 }  // namespace

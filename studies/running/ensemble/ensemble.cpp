@@ -45,8 +45,10 @@ class Ensemble {
       m.result.against_bound = m.bound.result();
       share_time(m, seconds);
       if (!m.put_off && !(m.running && interrupted_)) {
-        conclude(m.result, m.c, *m.growth, m.values.u.values(), m.t, m.solution_at_first,
-                 [&](double time) { return particles_->positions(time); });
+        conclude(
+            m.result, m.c, *m.growth, m.values.u.values(), m.t, m.solution_at_first,
+            [&](double time) { return particles_->positions(time); },
+            [&](const Points& x) { return widths_on_line(x.line(), scene_.period()); });
         count_work(m);
         m.result.completed = true;
       }
@@ -86,11 +88,15 @@ class Ensemble {
         std::copy(u.begin(), u.end(), piece.of(m.values.u.values()).begin());
       }
     });
-    for (Member& m : members_) {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      Member& m = members_[i];
       const auto fits = [&](const auto& group) { return group->takes(m.c); };
-      const auto group = std::find_if(groups_.begin(), groups_.end(), fits);
-      m.group = group != groups_.end() ? group->get()
-                                       : groups_.emplace_back(std::make_unique<SweepGroup>(m.c, *particles_)).get();
+      auto group = std::find_if(groups_.begin(), groups_.end(), fits);
+      if (group == groups_.end()) {
+        const bool far = plans[i].form->far;
+        group = groups_.insert(group, std::make_unique<SweepGroup>(m.c, *particles_, far));
+      }
+      m.group = group->get();
       m.group->add(m.c, m.values);
       m.growth.emplace(largest.all(larger));
       m.solution_at_first = largest.all(larger);

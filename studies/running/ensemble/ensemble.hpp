@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// Cases on the same particles, advanced together in the vector form of their schemes.
+/// Cases on the same particles of a line, advanced together in the vector form of their schemes.
 
 #include <atomic>
 #include <limits>

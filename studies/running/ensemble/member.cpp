@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/vector/clones.hpp"
+#include "solver/line/vector/clones.hpp"
 
 namespace acstudy {
 

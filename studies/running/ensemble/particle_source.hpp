@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "mms/source_series.hpp"
+#include "mms/line/source_series.hpp"
 #include "studies/running/ensemble/shared_particles.hpp"
 
 namespace acstudy {

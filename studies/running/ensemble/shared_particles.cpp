@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "solver/vector/clones.hpp"
+#include "solver/line/vector/clones.hpp"
 
 namespace acstudy {
 

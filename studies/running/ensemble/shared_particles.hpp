@@ -7,10 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "mms/scene.hpp"
-#include "mms/trigonometric.hpp"
-#include "solver/particles.hpp"
-#include "solver/vector/sweeps.hpp"
+#include "mms/line/line_trajectories.hpp"
+#include "solver/line/particles.hpp"
+#include "solver/line/vector/sweeps.hpp"
 #include "studies/running/ensemble/team.hpp"
 #include "studies/running/ensemble/velocity_panels.hpp"
 
@@ -91,7 +90,7 @@ class SharedParticles {
   Needs needs_;
   Team& team_;
   const VelocitySeries& series_;
-  std::optional<Trajectories> trajectories_;  ///< none where particles stand still
+  std::optional<LineTrajectories> trajectories_;  ///< none where particles stand still
   std::vector<double> start_;
   PeriodicArray cosine_, sine_;            ///< of w x, where they are needed
   PeriodicArray half_cosine_, half_sine_;  ///< of w x/2, where there are `modes`

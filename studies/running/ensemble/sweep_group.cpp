@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <variant>
 
-#include "solver/far/far_sweeps.hpp"
-#include "solver/vector/clones.hpp"
+#include "solver/line/far/far_sweeps.hpp"
+#include "solver/line/vector/clones.hpp"
 #include "studies/models/kernel_choice.hpp"
 #include "studies/models/scheme.hpp"
 
@@ -38,8 +38,9 @@ struct SweepGroup::Kernel {
   }
 };
 
-SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
+SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles, bool far)
     : particles_(particles),
+      far_(far),
       kernel_(std::make_unique<Kernel>(c.scheme.kernel)),
       model_(c.scheme.model),
       delta_(c.delta),
@@ -57,16 +58,16 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles)
   work_.weight_builds = 1;
 }
 
-bool SweepGroup::far_pays(const Case& c, bool modes) {
-  const SweepKernel kernel = Kernel(c.scheme.kernel).sweep;
+bool SweepGroup::far_pays(const Case& c, bool modes, bool both) {
+  const SweepKernel::Form kernel = c.scheme.kernel.row().form;
   const double neighbors = c.delta / c.scene->period() * static_cast<double>(c.N);
   switch (c.scheme.model->vector_form) {
     case VectorForm::none:
       return false;
     case VectorForm::upwind:
-      return far::far_pays(UpwindSweep{kernel}, neighbors);
+      return far::upwind_far_pays(kernel, neighbors);
     case VectorForm::symmetric:
-      return modes && far::far_pays(SymmetricSweep{.kernel = kernel}, neighbors);
+      return modes && far::symmetric_far_pays(kernel, neighbors, both);
   }
   return false;
 }
@@ -198,8 +199,8 @@ void SweepGroup::sweep_moving(Team& team, const AndThen& and_then) {
     return range;
   };
   const auto run = [&](const auto& sweep, auto direct, auto far) {
-    const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
-    if (far::far_pays(sweep, neighbors)) {
+    if (far_) {
+      const double neighbors = delta_ / particles_.scene().period() * static_cast<double>(count);
       // Far sums depend on where a range begins, by round-off: ranges are cut the same way for any number of threads.
       const std::ptrdiff_t size = far::range_size(count, neighbors);
       each_range(size, [&, size](const Piece& piece) {

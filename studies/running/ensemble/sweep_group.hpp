@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/vector/sweeps.hpp"
 #include "solver/velocity.hpp"
 #include "studies/cases/case.hpp"
 #include "studies/running/ensemble/shared_particles.hpp"
@@ -25,14 +25,15 @@ class SweepGroup {
  public:
   /// @param c          one of the group's cases
   /// @param particles  outlive the group
-  SweepGroup(const Case& c, const SharedParticles& particles);
+  /// @param far        sums over far neighbors are by boxes  @pre far_pays(), whatever the number of neighbors
+  SweepGroup(const Case& c, const SharedParticles& particles, bool far);
   ~SweepGroup();
   SweepGroup(SweepGroup&&) noexcept;
 
-  /// True if a case on moving particles has so many neighbors that sums over far ones by boxes are the faster, alone.
-  /// Two cases that share their sums have them where that pays for both; see far::far_pays().
+  /// True if a case on moving particles has so many neighbors that sums over far ones by boxes are the faster.
   /// @param modes  the scene's velocities are series of few modes
-  static bool far_pays(const Case& c, bool modes);
+  /// @param both   the sums are for both divergences
+  static bool far_pays(const Case& c, bool modes, bool both);
 
   /// True if the case can be added: the same model, kernel, horizon and viscosity, and another divergence than those
   /// already there.
@@ -65,6 +66,7 @@ class SweepGroup {
   void sweep_standing(Team& team, const AndThen& and_then);
 
   const SharedParticles& particles_;
+  bool far_;
   std::unique_ptr<Kernel> kernel_;
   const ModelCard* model_;
   double delta_, mu_;

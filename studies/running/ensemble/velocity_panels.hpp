@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mms/scene.hpp"
-#include "solver/vector/sweeps.hpp"
+#include "solver/line/vector/sweeps.hpp"
 
 namespace acstudy {
 

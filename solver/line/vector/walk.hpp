@@ -1,0 +1,109 @@
+#pragma once
+
+/// @file
+/// The walk of consecutive particles over their neighbors, all of them in step.
+
+#include "solver/line/vector/kernels.hpp"
+#include "solver/line/vector/lanes.hpp"
+
+namespace acstudy {
+inline namespace ACSTUDY_ISA {
+
+/// Consecutive particles and what they see.
+struct Viewpoint {
+  Lanes x;
+  Lanes inside;  ///< largest distance of a neighbor besides the nearest one; negative: there is no other
+  double delta, per_delta;
+};
+
+/// A neighbor of each lane.
+struct Neighbor {
+  std::ptrdiff_t k;  ///< the k-th on its side
+  Lanes x;
+  Lanes distance;
+};
+
+/// The neighbors on one side, one after the other: neighbor k of lane l is x[l - s k], k = 1, 2, ...
+template <int s>
+class Side {
+ public:
+  /// @param x        at the first of the particles, readable as far as their windows reach and one beyond
+  /// @param counted  lanes whose neighbors are counted, a bit each
+  ACSTUDY_ALWAYS_INLINE inline Side(const double* x, const Viewpoint& from, unsigned counted)
+      : x_(x), from_(from), counted_(counted), neighbor_{1, load(x - s), {}} {
+    neighbor_.distance = distance_of(neighbor_.x);
+  }
+
+  /// Some lane has a neighbor k.
+  bool goes_on() const { return lanes_ != 0; }
+  /// Number of counted lanes that have.
+  int count() const { return acstudy::count(lanes_ & counted_); }
+  const Neighbor& neighbor() const { return neighbor_; }
+
+  /// The cells of all lanes end before z, in units of the horizon, and none of them is its lane's last.
+  ACSTUDY_ALWAYS_INLINE inline bool ends_before(double z) const {
+    return all_at_most(distance_of(load_next()), spread(z * from_.delta));
+  }
+  /// The cells of all lanes begin at z or beyond.
+  ACSTUDY_ALWAYS_INLINE inline bool begins_beyond(double z) const {
+    return all_at_most(spread(z * from_.delta), distance_before_);
+  }
+
+  /// Steps from neighbor k to k + 1. @return moment of the cell of k; 0 in lanes that have no neighbor k
+  ///
+  /// @param within  a kernel's moment up to z, for cells in this piece of it
+  template <KernelPiece piece, class Within>
+  ACSTUDY_ALWAYS_INLINE inline Lanes step(const Within& within) {
+    const Lanes next = load_next(), next_distance = distance_of(next);
+    Lanes z = neighbor_.distance * from_.per_delta;
+    if constexpr (piece != KernelPiece::inside) {
+      // The last cell ends at the horizon, beyond which a neighbor that ties with it may stand; all that follow are
+      // empty.
+      const Choice has_next = at_most(next_distance, from_.inside);
+      z = select(has_next, min(z, spread(1.0)), spread(1.0));
+      lanes_ = bits(has_next);
+    }
+    const Lanes moment_up_to = within.template operator()<piece>(z);
+    const Lanes moment = moment_up_to - moment_before_;
+    moment_before_ = moment_up_to;
+    distance_before_ = neighbor_.distance;
+    neighbor_ = {neighbor_.k + 1, next, next_distance};
+    return moment;
+  }
+
+ private:
+  ACSTUDY_ALWAYS_INLINE inline Lanes load_next() const { return load(x_ - s * (neighbor_.k + 1)); }
+  ACSTUDY_ALWAYS_INLINE inline Lanes distance_of(Lanes neighbor) const {
+    return s > 0 ? from_.x - neighbor : neighbor - from_.x;
+  }
+
+  const double* x_;
+  const Viewpoint& from_;
+  unsigned counted_, lanes_ = all_bits;
+  Neighbor neighbor_;
+  Lanes distance_before_ = {}, moment_before_ = {};
+};
+
+/// Calls add<piece>(side), which has to step, for all neighbors on each side. Sides go in step as far as both have
+/// neighbors.
+template <class K, class Add, class... Sides>
+ACSTUDY_ALWAYS_INLINE inline void walk(const Add& add, Sides&... sides) {
+  const auto each = [&]<KernelPiece piece>() ACSTUDY_ALWAYS_INLINE { (add.template operator()<piece>(sides), ...); };
+  while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<KernelPiece::inside>();
+  if constexpr (K::breakpoint < 1.0) {
+    // Where few neighbors are inside, few are outside, and a loop of their own costs more than it saves.
+    const double outside = ((sides.neighbor().k > 4) && ...) ? K::breakpoint : 2.0;
+    while ((sides.goes_on() && ...) && !(sides.begins_beyond(outside) && ...))
+      each.template operator()<KernelPiece::any>();
+    while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::outside>();
+  } else {
+    while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::any>();
+  }
+  const auto rest = [&](auto& side) ACSTUDY_ALWAYS_INLINE {
+    while (side.goes_on()) add.template operator()<KernelPiece::any>(side);
+  };
+  if constexpr (sizeof...(sides) > 1) (rest(sides), ...);
+}
+
+}  // namespace ACSTUDY_ISA
+}  // namespace acstudy

@@ -58,7 +58,7 @@ def report(folder, files):
     names = (*(study.name for study in studies), "cost", "bench")
     tasks = [*((registry.drawings, study, styles) for study in studies),
              (run_times.drawings, registry.with_run_times(studies), styles), (bench_figures.drawings, benches, styles)]
-    with closing(processes.in_turn(tasks, len(studies) + bool(benches))) as drawn_in_turn:
+    with closing(processes.in_turn(tasks, len(studies) + bool(benches), ("svg",))) as drawn_in_turn:
         for name, drawn in zip(names, drawn_in_turn):
             for one in drawn:
                 for kind, content in one.files.items():

@@ -1,7 +1,7 @@
 """The look of every figure: typography, colors, and how a figure becomes files."""
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import io
 import re
 
@@ -26,9 +26,8 @@ TYPOGRAPHY = {
     "xtick.major.width": 0.7, "ytick.major.width": 0.7, "xtick.minor.width": 0.5, "ytick.minor.width": 0.5,
     "lines.linewidth": 1.4, "lines.markersize": 5.5, "lines.markeredgewidth": 1.2, "legend.fontsize": 10,
     "svg.fonttype": "none", "svg.hashsalt": "acstudy"}
-# Packed harder, PNG files are some percent smaller and take a tenth longer.
-_OF_FILE = {"svg": {}, "png": {"pil_kwargs": {"compress_level": 1}}}
-_METADATA = {"svg": {"Date": None}, "png": {"Software": None}}
+FORMATS = ("svg", "png", "pdf")     # of files of a figure
+_METADATA = {"svg": {"Date": None}, "png": {"Software": None}, "pdf": {"CreationDate": None}}
 LEGEND = {"frameon": False, "borderaxespad": 0, "borderpad": 0, "handlelength": 3.0, "handletextpad": 0.6,
           "labelspacing": 0.55}
 
@@ -49,9 +48,11 @@ class Drawing:
     title: str
     figure: object          # matplotlib's; None once it is rendered
     alt: str
-    caption: str
+    caption: str            # how to read it
     statements: tuple = ()  # of theory that it shows; empty: those of its whole study
-    files: dict = field(default_factory=dict)   # content by extension, once it is rendered
+    says: str = ""          # what to see in it, a sentence made of the results
+    inline: str = ""        # the figure as an element of a page, once it is rendered; see svg.inline
+    files: dict = field(default_factory=dict)   # content by extension, once it is rendered: those asked for
 
 
 def slug(text):
@@ -83,14 +84,22 @@ def mark_departing(panel, x, y, width=4):
     panel.plot(x, y, color=DEPARTING, linewidth=width, alpha=0.35, zorder=1)
 
 
-def render(figure, title):
-    """The figure as {"svg": bytes, "png": bytes}."""
-    return {kind: image(figure, title, kind) for kind in _OF_FILE}
+def render(drawing, formats=()):
+    """The drawing with its figure as an element of a page and as files of these of FORMATS, and without matplotlib's."""
+    drawn = _saved(drawing.figure, drawing.title, "svg").decode()
+    files = {kind: svg.readable(drawn).encode() if kind == "svg" else _saved(drawing.figure, drawing.title, kind)
+             for kind in formats}
+    return replace(drawing, inline=svg.inline(drawn, drawing.stem, drawing.alt), files=files, figure=None)
 
 
 def image(figure, title, kind):
-    """The figure as a file of this kind, with no date inside."""
+    """The figure as a file of one of FORMATS, with no date inside."""
+    saved = _saved(figure, title, kind)
+    return svg.readable(saved.decode()).encode() if kind == "svg" else saved
+
+
+def _saved(figure, title, kind):
     buffer = io.BytesIO()
     with typography():
-        figure.savefig(buffer, format=kind, dpi=150, metadata=_METADATA[kind] | {"Title": title}, **_OF_FILE[kind])
-    return svg.readable(buffer.getvalue().decode()).encode() if kind == "svg" else buffer.getvalue()
+        figure.savefig(buffer, format=kind, dpi=150, metadata=_METADATA[kind] | {"Title": title})
+    return buffer.getvalue()

@@ -1,7 +1,6 @@
 """The drawing of figures by several processes."""
 
 from contextlib import suppress
-from dataclasses import replace
 import gc
 from itertools import islice
 import multiprocessing
@@ -16,23 +15,23 @@ class DrawingKilled(Exception):
     """A drawing process ended before its drawing did; the text is one line."""
 
 
-def in_turn(tasks, at_most):
+def in_turn(tasks, at_most, formats=()):
     """The rendered drawings of each task (draw, *arguments): an iterator of lists, in the order of the tasks;
-    by `at_most` processes.
+    by `at_most` processes. `formats`: of their files.
 
     DrawingKilled if a process of the drawing was killed. Ended early, it leaves no process.
     """
     usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     processes = min(at_most, usable)
     if processes < 2:
-        yield from map(_rendered, tasks)
+        yield from (_rendered(task, formats) for task in tasks)
         return
     # concurrent.futures would wait for what is being drawn after an interrupt, or hang where a process was killed while
     # it sent. Here each process has a connection of its own, which ends with it.
     workers = {}
     try:
         for _ in range(processes):
-            connection, process = _start(tasks)
+            connection, process = _start(tasks, formats)
             workers[connection] = process
         yield from _in_turn(len(tasks), list(workers))
     finally:
@@ -41,10 +40,10 @@ def in_turn(tasks, at_most):
             process.join()
 
 
-def _start(tasks):
+def _start(tasks, formats):
     """(connection, process) that gets indices of `tasks` and sends back (index, drawings, error)."""
     here, there = multiprocessing.Pipe()
-    process = multiprocessing.Process(target=_work, args=(there, tasks), daemon=True)
+    process = multiprocessing.Process(target=_work, args=(there, tasks, formats), daemon=True)
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})    # only the first process answers an interrupt
     try:
         process.start()
@@ -54,12 +53,12 @@ def _start(tasks):
     return here, process
 
 
-def _work(connection, tasks):
+def _work(connection, tasks, formats):
     with suppress(EOFError, ConnectionError):   # the first process is gone
         while True:
             i = connection.recv()
             try:
-                message = i, _rendered(tasks[i]), None
+                message = i, _rendered(tasks[i], formats), None
             except Exception as error:
                 message = i, None, error
             connection.send(message)
@@ -84,13 +83,13 @@ def _in_turn(count, connections):
         raise DrawingKilled("a drawing process was killed; free memory and draw again") from error
 
 
-def _rendered(task):
+def _rendered(task, formats):
     draw, *arguments = task
     # Figures are many objects that stay until they are drawn: to look for garbage among them takes a fifth of the time.
     on = gc.isenabled()
     gc.disable()
     try:
-        return [replace(one, files=look.render(one.figure, one.title), figure=None) for one in draw(*arguments)]
+        return [look.render(one, formats) for one in draw(*arguments)]
     finally:
         if on:
             gc.enable()

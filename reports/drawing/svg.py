@@ -14,6 +14,8 @@ import re
 from fontTools import subset        # comes with matplotlib, which cuts fonts for PDF in the same way
 from matplotlib.font_manager import FontProperties, findfont
 
+from drawing import inlined
+
 # For viewers that take no font from a file; first those of the same widths as STIX.
 SUBSTITUTES = "'STIX Two Text', 'Times New Roman', Times, 'Liberation Serif', 'Nimbus Roman', serif"
 _FONT = re.compile(r"'?\b(STIX\w+)'?")
@@ -22,12 +24,31 @@ _FORMULA = re.compile(rf"(?:\s*{_RUN.pattern})+\s*")
 
 
 def readable(svg):
-    """The SVG text `svg` with its formulas in reading order, its fonts embedded and named with substitutes."""
+    """matplotlib's SVG as a file: its formulas in reading order, its fonts embedded and named with substitutes."""
     svg = _FONT.sub(rf"\1, {SUBSTITUTES}", _FORMULA.sub(_reordered, svg))
-    letters = "".join(sorted(set(unescape("".join(re.findall(r">([^<]+)</t", svg))))))
-    faces = "".join(f"@font-face{{font-family:STIXGeneral;font-style:{style};"
-                    f"src:url(data:font/woff;base64,{_font(style, letters)})}}\n" for style in ("normal", "italic"))
-    return svg.replace("<defs>", f'<defs>\n  <style type="text/css">{faces}</style>', 1)
+    return svg.replace("<defs>", f'<defs>\n  <style type="text/css">{faces(letters(svg))}</style>', 1)
+
+
+def inline(svg, stem, label=""):
+    """matplotlib's SVG as an element <svg class="drawing" data-figure="stem"> of a page that has faces() in its style.
+
+    Identifiers begin with the figure's `stem` and a dot; what was drawn with the gid "s:KEY" is in groups with
+    data-series="KEY". Colors are custom properties with what was drawn as their fallback: --ink for black, --paper for
+    white, --c-rrggbb for others; inlined.dark() has their values on a dark page. `label`: what is said in place of the
+    figure.
+    """
+    return inlined.compact(_FORMULA.sub(_reordered, svg), stem, f"STIXGeneral, {SUBSTITUTES}", label)
+
+
+def letters(*svgs):
+    """The letters in the text of any of the SVG texts, in order."""
+    return "".join(sorted(set(unescape("".join(found for svg in svgs for found in re.findall(r">([^<]+)</t", svg))))))
+
+
+def faces(letters):
+    """The fonts of figures, cut down to these letters, as rules for a style sheet."""
+    return "".join(f"@font-face{{font-family:STIXGeneral;font-style:{style};"
+                   f"src:url(data:font/woff;base64,{_font(style, letters)})}}\n" for style in ("normal", "italic"))
 
 
 @lru_cache(maxsize=64)

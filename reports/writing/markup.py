@@ -42,8 +42,7 @@ def figure(drawing):
     stem = quote(drawing.stem)
     return (f'<figure id="{escape(drawing.stem)}.figure">\n'
             f'<div class="card" tabindex="0"><img src="{stem}.svg" alt="{escape(drawing.alt)}"></div>\n'
-            f'<figcaption>{escape(drawing.caption)} <a href="{stem}.svg">SVG</a> <a href="{stem}.png">PNG</a>'
-            "</figcaption>\n</figure>\n")
+            f'<figcaption>{escape(drawing.caption)} <a href="{stem}.svg">SVG</a></figcaption>\n</figure>\n')
 
 
 def table(columns, rows, label, numbers=False):

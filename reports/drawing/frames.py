@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 import math
 
-from drawing.look import WIDTH, blank
+from drawing.look import WIDTH, add_axes, blank
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ def panel_frames(count, above, below, foot=0.0):
     for i in range(count):
         x = left + (i % columns) * (width + gap)
         y = total - (i // columns) * row - above - height
-        panel = figure.add_axes((x / WIDTH, y / total, width / WIDTH, height / total), xscale="log", yscale="log")
+        panel = add_axes(figure, x, y, width, height, xscale="log", yscale="log")
         panel.tick_params(which="both", top=True, right=True)
         frames.append(Frame(panel, (width, height), left, i % columns == 0, i + columns >= count))
     return figure, frames

@@ -10,6 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from drawing import svg
+from drawing.panel import Panel
 
 # Okabe and Ito's colors, told apart by readers of every color vision; their yellow is left out: too pale for a line.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
@@ -67,10 +68,10 @@ def blank(height, width=WIDTH):
     return figure
 
 
-def add_axes(figure, left, bottom, width, height, **more):
-    """Axes at a place given in inches from the figure's lower left corner."""
+def add_axes(figure, left, bottom, width, height, kind=Panel, **more):
+    """Axes of this `kind` at a place given in inches from the figure's lower left corner."""
     across, up = figure.get_size_inches()
-    return figure.add_axes((left / across, bottom / up, width / across, height / up), **more)
+    return figure.add_axes(kind(figure, (left / across, bottom / up, width / across, height / up), **more))
 
 
 def foot_legend(figure, left, keys, texts, columns, spacing=2.0, bottom=0.1, **more):

@@ -3,6 +3,7 @@
 import math
 import textwrap
 
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm
 from matplotlib.lines import Line2D
@@ -99,7 +100,7 @@ def map_figure(study, planes):
                     panel.annotate(TARGETS[target], (0, 1), xycoords="axes fraction", xytext=(0, 72 * spaces[row] - 17),
                                    textcoords="offset points", va="bottom", fontsize=11.5)
         bar = figure.colorbar(ScalarMappable(norm, colors), cax=add_axes(
-            figure, left + len(schemes) * (width + gap), foot, 0.16, height - spaces[0]), spacing="proportional")
+            figure, left + len(schemes) * (width + gap), foot, 0.16, height - spaces[0], Axes), spacing="proportional")
         ticks = [level for level in levels if abs(math.log10(level) - round(math.log10(level))) < 1e-6] or levels[::3]
         bar.set_ticks(ticks, labels=[axes.tick_text(tick, [1e-9]) for tick in ticks])
         bar.minorticks_off()

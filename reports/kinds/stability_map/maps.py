@@ -3,6 +3,7 @@
 Reading findings only: every limit and bound that is drawn is one of the result file.
 """
 
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -197,7 +198,7 @@ _NONE = dict(linestyle="none", marker="x", markersize=5, color="black", clip_on=
 def _color_key(figure, colors, norm, left, above, height, allowed):
     bottom = figure.get_figheight() - above - height
     bar = figure.colorbar(ScalarMappable(norm, colors),
-                          cax=add_axes(figure, left + 0.05, bottom, 0.16, height))
+                          cax=add_axes(figure, left + 0.05, bottom, 0.16, height, Axes))
     bar.set_ticks(range(1, len(LEVELS) + 1), labels=[axes.tick_text(level, [1e-9]) if level > 10 else f"{level:g}"
                                                      for level in LEVELS])
     bar.minorticks_off()

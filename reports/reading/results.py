@@ -43,7 +43,7 @@ def read_study(path):
 
 
 def _study(path, file):
-    root = Stored(file)
+    root = Stored(file["/"])
     found = root.attribute("format", "")
     if found != FORMAT:
         raise ResultError(f'{path}: format = "{found}"; not a result file of acstudy; '

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, fields
+from functools import lru_cache
 
-import h5py
+from h5py import h5a, h5d, h5s, h5t
 import numpy as np
 
 Column = np.ndarray     # [n], an entry per case or point
@@ -16,7 +17,7 @@ class Stored:
 
     def __init__(self, group):
         self.group = group
-        self.attributes = {name: _plain(value) for name, value in group.attrs.items()}
+        self.attributes = dict(_attributes(group))
 
     def record(self, kind, **given):
         """A `kind`: each field of this dataclass that is not given is what is stored under its name, where it is text, a
@@ -48,15 +49,16 @@ class Stored:
         return Stored(self.group[name])
 
     def _column(self, field, first):
-        """A data set by the lower interface of h5py, in a third of the time; as long as the `first`."""
+        """A data set, as long as the `first`."""
         try:
-            data = h5py.h5d.open(self.group.id, field.name.encode())
+            data = h5d.open(self.group.id, field.name.encode())
         except KeyError:
             if field.default is MISSING:
                 raise KeyError(f"{self.group.name}: no dataset {field.name}") from None
             return np.full(len(first), np.nan)
-        values = np.empty(data.shape, data.dtype)
-        data.read(h5py.h5s.ALL, h5py.h5s.ALL, values)
+        dtype, kind = _in_memory(data.get_type())
+        values = np.empty(data.shape, dtype or data.dtype)
+        data.read(h5s.ALL, h5s.ALL, values, kind)
         values = np.atleast_1d(values)
         n = len(values if first is None else first)
         expected = max(n - 1, 0) if field.type == "Between" else n
@@ -64,6 +66,34 @@ class Stored:
             raise ValueError(f"{self.group.name}/{field.name}: shape {values.shape}, but {expected} entries belong to "
                              f"N of {n}")
         return values
+
+
+def _attributes(group):
+    """(name, value) of each attribute, by the lower interface of h5py: in a third of the time."""
+    for i in range(h5a.get_num_attrs(group.id)):
+        attribute = h5a.open(group.id, index=i)
+        name, stored = attribute.name.decode(), attribute.get_type()
+        dtype, kind = _in_memory(stored)
+        if dtype is None or attribute.get_storage_size() != stored.get_size():
+            yield name, _plain(group.attrs[name])
+            continue
+        value = np.empty((), dtype)
+        attribute.read(value, kind)
+        yield name, _plain(value)
+
+
+def _in_memory(stored):
+    """(dtype, HDF5's type) of numbers and of texts of fixed length once they are read; (None, None) for others."""
+    kind = stored.get_class()
+    if kind == h5t.STRING and not stored.is_variable_str():
+        return np.dtype(f"S{stored.get_size()}"), stored
+    return _number(kind, stored.get_size()) if kind in (h5t.INTEGER, h5t.FLOAT) else (None, None)
+
+
+@lru_cache(maxsize=None)
+def _number(kind, size):
+    dtype = np.dtype(f"{'i' if kind == h5t.INTEGER else 'f'}{size}")
+    return dtype, h5t.py_create(dtype)
 
 
 def _plain(value):

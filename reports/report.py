@@ -49,7 +49,8 @@ def report(folder, files):
     from pages import bench as bench_page, claims, comparison, mutants, page
     from reading import bench_results, results
 
-    studies = [results.read_study(file) for file in files]
+    with closing(processes.results([(results.read_study, file) for file in files], len(files))) as read_in_turn:
+        studies = list(read_in_turn)
     _refuse_clashes(studies)
     seeded, compared = mutants.read(folder), comparison.read(folder)
     benches = bench_results.read_all(folder)

@@ -1,6 +1,7 @@
-"""The drawing of figures by several processes."""
+"""Reading and drawing by several processes."""
 
-from contextlib import suppress
+from contextlib import contextmanager, suppress
+from functools import partial
 import gc
 from itertools import islice
 import multiprocessing
@@ -21,17 +22,23 @@ def in_turn(tasks, at_most, formats=()):
 
     DrawingKilled if a process of the drawing was killed. Ended early, it leaves no process.
     """
+    return results(tasks, at_most, partial(_rendered, formats=formats))
+
+
+def results(tasks, at_most, work=None):
+    """What each task (function, *arguments) gives, or `work` of the task: as in_turn() does."""
+    work = work or _called
     usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     processes = min(at_most, usable)
     if processes < 2:
-        yield from (_rendered(task, formats) for task in tasks)
+        yield from map(work, tasks)
         return
     # concurrent.futures would wait for what is being drawn after an interrupt, or hang where a process was killed while
     # it sent. Here each process has a connection of its own, which ends with it.
     workers = {}
     try:
         for _ in range(processes):
-            connection, process = _start(tasks, formats)
+            connection, process = _start(tasks, work)
             workers[connection] = process
         yield from _in_turn(len(tasks), list(workers))
     finally:
@@ -40,10 +47,10 @@ def in_turn(tasks, at_most, formats=()):
             process.join()
 
 
-def _start(tasks, formats):
+def _start(tasks, work):
     """(connection, process) that gets indices of `tasks` and sends back (index, drawings, error)."""
     here, there = multiprocessing.Pipe()
-    process = multiprocessing.Process(target=_work, args=(there, tasks, formats), daemon=True)
+    process = multiprocessing.Process(target=_work, args=(there, tasks, work), daemon=True)
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})    # only the first process answers an interrupt
     try:
         process.start()
@@ -53,12 +60,12 @@ def _start(tasks, formats):
     return here, process
 
 
-def _work(connection, tasks, formats):
+def _work(connection, tasks, work):
     with suppress(EOFError, ConnectionError):   # the first process is gone
         while True:
             i = connection.recv()
             try:
-                message = i, _rendered(tasks[i], formats), None
+                message = i, work(tasks[i]), None
             except Exception as error:
                 message = i, None, error
             connection.send(message)
@@ -83,13 +90,25 @@ def _in_turn(count, connections):
         raise DrawingKilled("a drawing process was killed; free memory and draw again") from error
 
 
+def _called(task):
+    function, *arguments = task
+    with _no_search_for_garbage():
+        return function(*arguments)
+
+
 def _rendered(task, formats):
     draw, *arguments = task
-    # Figures are many objects that stay until they are drawn: to look for garbage among them takes a fifth of the time.
+    with _no_search_for_garbage():
+        return [look.render(one, formats) for one in draw(*arguments)]
+
+
+@contextmanager
+def _no_search_for_garbage():
+    """Figures and findings are many objects that stay: to look for garbage among them takes a fifth of the time."""
     on = gc.isenabled()
     gc.disable()
     try:
-        return [look.render(one, formats) for one in draw(*arguments)]
+        yield
     finally:
         if on:
             gc.enable()

@@ -32,9 +32,9 @@ def curves_figure(found, one_bound=False):
             curves = [[_curve(finding) for finding in cell] for cell in group]
             orders = [sorted({finding.theory_order for finding in cell if finding.test != "bounds"
                               and finding.theory_order > 0}) for cell in group]
-            bounds, lines = axes.error_bounds(
-                [(cell + _bounds(of), order) for cell, of, order in zip(curves, group, orders) if cell], (width, tall))
             limits = axes.x_limits([curve for cell in curves for curve in cell])
+            shown = [(cell + _bounds(of), order) for cell, of, order in zip(curves, group, orders) if cell]
+            bounds, lines = axes.error_bounds(shown, (width, tall), [limits] * len(shown))
             lines = iter(lines)
             first = True
             for i, (column, cell) in enumerate(zip(columns, group)):

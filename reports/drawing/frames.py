@@ -17,7 +17,11 @@ class Frame:
 
 
 def panel_frames(count, above, below, foot=0.0):
-    """A figure with `count` panels, at most three a row; inches `above` and `below` every row and at the `foot`."""
+    """A figure with `count` panels, at most three a row; inches `above` and `below` every row and at the `foot`.
+
+    With a foot and nothing below, they share their axes.
+    """
+    shared = foot and not below
     columns = count if count <= 3 else 2 if count == 4 else 3
     rows = math.ceil(count / columns)
     left, right, gap, label = 0.78, 0.1, 0.2, 0.55
@@ -25,8 +29,8 @@ def panel_frames(count, above, below, foot=0.0):
     width = 5.2 if count == 1 and not foot else (WIDTH - left - right - (columns - 1) * gap) / columns
     height = 3.6 if count == 1 else 2.6
     # Panels that share both axes name the lower one below the last row alone.
-    row = above + height + (0.0 if foot else label + below)
-    total = rows * row + (label + foot if foot else 0.1)
+    row = above + height + (0.0 if shared else label + below)
+    total = rows * row + (label + foot if shared else max(foot, 0.1))
     figure = blank(total)
     frames = []
     for i in range(count):

@@ -65,7 +65,7 @@ def report(folder, files):
                 for kind, content in one.files.items():
                     _write(folder / f"{one.stem}.{kind}", content)
             drawings[name] = drawn
-    cost = next(iter(drawings.pop("cost")), None)
+    cost = drawings.pop("cost")
     of_benches = drawings.pop("bench")
     if benches:
         links = [("index.html", "all studies")] if studies else []

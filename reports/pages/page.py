@@ -20,10 +20,10 @@ TIMED = f'<p><a href="{bench_page.FILE}">Measured so that they can be compared</
 UNTIMED = "<p><code>make bench</code> measures them so that they can be compared: alone, repeatedly, in turn.</p>\n"
 
 
-def html(studies, drawings, cost=None, seeded=None, compared=None, timed=False):
+def html(studies, drawings, cost=(), seeded=None, compared=None, timed=False):
     """The page as text.
 
-    `drawings`: {name of a study: its drawings}; `cost`: the drawing of the cost figure; `seeded`: mutants.read();
+    `drawings`: {name of a study: its drawings}; `cost`: the drawings of error against run time; `seeded`: mutants.read();
     `compared`: comparison.read(); `timed`: there is a page of benches.
     """
     body = [_summary(studies)]
@@ -32,7 +32,7 @@ def html(studies, drawings, cost=None, seeded=None, compared=None, timed=False):
         body.append(f"{_heading(study)}{shown}{_origin(study)}")
     if cost:
         body.append('<section aria-labelledby="run-time">\n<h2 id="run-time">Error against run time</h2>\n'
-                    f"{markup.figure(cost)}{TIMED if timed else UNTIMED}</section>\n")
+                    f"{''.join(map(markup.figure, cost))}{TIMED if timed else UNTIMED}</section>\n")
     body.append(comparison.section(compared))
     body.append(mutants.section(seeded))
     links = [("claims.html", "claim by claim")]

@@ -10,11 +10,10 @@ from drawing import axes
 from drawing.frames import panel_frames
 from drawing.look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.styles import styles_of
-from drawing.timed import BARS
+from drawing.timed import BARS, EFFICIENT, mark_frontier
 from kinds.bench import tables as bench_tables
-from reading import bench_results, names, work_precision
+from reading import bench_results, names
 
-EFFICIENT = dict(linestyle="none", marker="o", markersize=13, markeredgewidth=0, color="#D3D3D3", zorder=1)
 # Positions, velocities, pair sums, source, rest: told apart by hatching too.
 FILLS = ((COLORS[1], ""), (COLORS[5], "////"), (COLORS[0], ""), (COLORS[2], "...."), ("#C8C8C8", ""))
 SLOPE = dict(color=GRAY, linewidth=0.8, zorder=2)
@@ -71,7 +70,7 @@ def error_figure(curves, styles, cost):
             panel = frame.axes
             panel.set_title(names.path_math(path))
             drawn = [points[curve] for curve in group]
-            _mark_frontier(panel, drawn)
+            mark_frontier(panel, *map(np.concatenate, zip(*drawn)))
             for curve, (costs, errors) in zip(group, drawn):
                 style = styles[curve.scheme]
                 bars = _bars(curve.seconds, costs) if cost == "seconds" else None
@@ -100,12 +99,6 @@ def _bars(spread, drawn, per=1.0):
     below = np.where(np.isfinite(drawn), (spread.median - spread.minimum) / per, 0)
     above = np.where(np.isfinite(drawn), 2 * spread.deviation / per, 0)
     return [below, above]
-
-
-def _mark_frontier(panel, drawn):
-    costs, errors = (np.concatenate([one[i] for one in drawn]) for i in (0, 1))
-    efficient = work_precision.frontier(costs, errors)
-    panel.plot(costs[efficient], errors[efficient], **EFFICIENT)
 
 
 # ------------------------------------------------------------------------------------------------- where the time goes

@@ -2,7 +2,7 @@
 
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FixedFormatter, FixedLocator
 from matplotlib.transforms import ScaledTranslation
 import numpy as np
@@ -22,7 +22,7 @@ class Panel(Axes):
     """
 
     def __init__(self, *args, **more):
-        self._shown, self._settled = {}, False
+        self._shown = {}
         super().__init__(*args, **more)
         self._shown = {"bottom": True, "left": True, "labelbottom": True, "labelleft": True}
         for axis in (self.xaxis, self.yaxis):
@@ -49,14 +49,17 @@ class Panel(Axes):
         _fix(self.yaxis, ticks, labels)
 
     def draw(self, renderer):
-        if not self._settled:
-            self._settled = True
-            self._settle(self.xaxis, ("bottom", "top"), renderer)
-            self._settle(self.yaxis, ("left", "right"), renderer)
+        """Ticks and labels are there while it is drawn, for their places depend on the fonts of the file."""
+        added = [*self._ticks(self.xaxis, ("bottom", "top"), renderer),
+                 *self._ticks(self.yaxis, ("left", "right"), renderer)]
+        for artist in added:
+            self.add_artist(artist)
         super().draw(renderer)
+        for artist in added:
+            artist.remove()
 
-    def _settle(self, axis, sides, renderer):
-        """Adds ticks, their labels and that of the axis."""
+    def _ticks(self, axis, sides, renderer):
+        """Ticks, their labels and that of the axis."""
         across = sides[0] == "bottom"
         transform = self._along(across)
         major, labels = _within(axis)
@@ -66,8 +69,8 @@ class Panel(Axes):
                     edges = np.full(len(places), edge)
                     points = (places, edges) if across else (edges, places)
                     marker = (_OUTWARD if self._shown.get("direction") == "out" else _INWARD)[side]
-                    self.add_artist(Line2D(*points, linestyle="none", marker=marker, color="black", transform=transform,
-                                           clip_on=False, zorder=1.5, **look))
+                    yield Line2D(*points, linestyle="none", marker=marker, color="black", transform=transform,
+                                 clip_on=False, zorder=1.5, **look)
         texts = []
         if self._shown[f"label{sides[0]}"]:
             outside = MAJOR["markersize"] if self._shown.get("direction") == "out" else 0.0
@@ -76,25 +79,25 @@ class Panel(Axes):
             of_side = dict(va="top", ha="center") if across else dict(va="center_baseline", ha="right")
             for place, label in zip(major, labels):
                 texts.append(Text(*((place, 0) if across else (0, place)), label, transform=transform, clip_on=False,
-                                  zorder=1.5, **of_side))
-                self.add_artist(texts[-1])
-        self._name_axis(axis, across, max(texts, key=lambda text: len(text.get_text()), default=None), renderer)
+                                  zorder=1.5, figure=self.figure, **of_side))
+        yield from texts
+        if axis.label.get_text():
+            # Those at the bottom are of one height.
+            boxes = [text.get_window_extent(renderer) for text in (texts[:1] if across else texts)]
+            yield self._name(axis, across, boxes)
 
     def _along(self, across):
         """Data along the axis, parts of the panel at right angles to it."""
         return self.get_xaxis_transform() if across else self.get_yaxis_transform()
 
-    def _name_axis(self, axis, across, longest, renderer):
-        """The axis's label, beyond the `longest` label of a tick."""
-        if not axis.label.get_text():
-            return
-        box = self.bbox if longest is None else longest.get_window_extent(renderer)
-        reach = self.bbox.y0 - box.y0 if across else self.bbox.x0 - box.x0
+    def _name(self, axis, across, boxes):
+        """The axis's label, beyond the `boxes` around labels of ticks."""
+        reach = max((self.bbox.y0 - box.y0 if across else self.bbox.x0 - box.x0 for box in boxes), default=0.0)
         offset = -(72 * reach / self.figure.dpi + axis.labelpad)
-        self.annotate(axis.label.get_text(), (0.5, 0) if across else (0, 0.5), xycoords="axes fraction",
-                      xytext=(0, offset) if across else (offset, 0), textcoords="offset points", ha="center",
-                      va="top" if across else "bottom", rotation=0 if across else 90, rotation_mode="anchor",
-                      fontproperties=axis.label.get_fontproperties(), annotation_clip=False)
+        return Annotation(axis.label.get_text(), (0.5, 0) if across else (0, 0.5), xycoords=self.transAxes,
+                          xytext=(0, offset) if across else (offset, 0), textcoords="offset points", ha="center",
+                          va="top" if across else "bottom", rotation=0 if across else 90, rotation_mode="anchor",
+                          fontproperties=axis.label.get_fontproperties(), annotation_clip=False, clip_on=False)
 
 
 def _fix(axis, ticks, labels):

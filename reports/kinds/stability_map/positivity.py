@@ -6,9 +6,9 @@ from matplotlib.lines import Line2D
 import numpy as np
 
 from drawing import axes
-from drawing.look import COLORS, DASHES, GRAY, MARKERS, Drawing, mark_departing, typography
+from drawing.look import DASHES, GRAY, MARKERS, Drawing, mark_departing, typography
 from kinds.stability_map.findings import integrator_of, of_kind, ordered
-from kinds.stability_map.panels import panels
+from kinds.stability_map.panels import SHADES, panels
 
 
 def drawings(study):
@@ -79,5 +79,5 @@ def positivity_figure(found):
 
 
 def _entry_style(i):
-    return dict(color=COLORS[i % len(COLORS)], marker=MARKERS[i % len(MARKERS)], linestyle=DASHES[i % len(DASHES)],
+    return dict(color=SHADES[i % len(SHADES)], marker=MARKERS[i % len(MARKERS)], linestyle=DASHES[i % len(DASHES)],
                 linewidth=1.2, markersize=4.6, markeredgewidth=0.9)

@@ -14,6 +14,7 @@ import numpy as np
 from drawing import axes
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from kinds.kind import Kind
+from kinds.says import verdicts
 from reading import names
 
 # Refinement paths: name, horizon at spacing h, dashes.
@@ -32,9 +33,9 @@ def drawings(study, styles):
         Drawing(study.name, study.title, map_figure(study, planes),
                 f"Color maps of the max-norm error over spacing h and horizon delta {described}",
                 "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
-                f"dots are the cases; white: lines of equal error. Black: refinement paths. {_fit_caption(study)}Asymptotic compatibility: against "
+                f"dots are the cases, thin lines those of equal error. Thick lines: refinement paths. {_fit_caption(study)}Asymptotic compatibility: against "
                 "the nonlocal model the error falls to the left at every horizon, against the local equation toward "
-                "the lower left, however that is approached."),
+                "the lower left, however that is approached.", says=f"{verdicts(study.findings)}."),
         Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.evidence, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "

@@ -13,9 +13,6 @@ from drawing.styles import Style
 from drawing.timed import EFFICIENT, error_over_seconds, mark_frontier
 from reading import names, work_precision
 
-# Errors for which the cheapest run is named.
-WANTED = sorted((float(f"{step}e{power}") for power in range(-9, 1) for step in (1, 3)), reverse=True)
-
 
 def drawings(studies, styles):
     """A figure for each scene that has errors and run times."""
@@ -135,20 +132,8 @@ def _says(chosen):
         runs = [(seconds, error, f"{labels[series.scheme]}, {series.path}, N = {N}")
                 for _, series in chosen if series.source == source
                 for seconds, error, N in zip(*_points([series.cases]))]
-        picks = _cheapest(runs)
+        picks = work_precision.cheapest(runs)
         if picks:
             found = [f"{min(errors):g} in {seconds:.2g} s ({what})" for (seconds, _, what), errors in picks.items()]
             said.append(f"Cheapest for an error against the {target} of at most {'; '.join(found)}.")
     return " ".join(said)
-
-
-def _cheapest(runs):
-    """{(seconds, error, ...): the WANTED errors that it is the cheapest run for}, the largest error first."""
-    if not runs:
-        return {}
-    efficient = work_precision.frontier(*(np.array([run[i] for run in runs]) for i in (0, 1)))
-    frontier = sorted(run for run, best in zip(runs, efficient) if best)
-    picks = {}
-    for wanted in (error for error in WANTED if frontier[-1][1] <= error <= 2 * frontier[0][1]):
-        picks.setdefault(next(run for run in frontier if run[1] <= wanted), []).append(wanted)
-    return picks

@@ -9,6 +9,7 @@ from drawing.curves import bounded
 from drawing.look import DASHES, GRAY, WIDTH, Drawing, add_axes, blank, mark_departing, typography
 from drawing.subjects import (GAP, LEFT, RIGHT, arrangement, legend_height, subject_legend, subject_styles,
                               variable_math)
+from kinds import says
 from kinds.kind import Kind
 from reading import names
 
@@ -25,7 +26,7 @@ def drawings(study, styles):
         "Values: table below.",
         "Norm of a step less 1, relative to what the lemma allows: 1 is the bound, 0 no growth at all; above 1 the "
         f"scale is logarithmic, up to {BEYOND:g}; triangles at the edge: beyond it. Worst of all particle numbers. Dashed and pale: negative controls, which must exceed "
-        "the bound.")]
+        "the bound.", says=says.bounds(found))]
 
 
 def growth_figure(found):

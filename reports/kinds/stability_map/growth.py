@@ -8,6 +8,7 @@ import numpy as np
 
 from drawing import axes
 from drawing.look import DASHES, GRAY, Drawing, mark_departing, typography
+from kinds import says
 from kinds.stability_map.findings import CAPPED, integrator_of, of_kind, ordered
 from kinds.stability_map.panels import SHADES, panels
 
@@ -23,7 +24,7 @@ def drawings(study):
         "number. Values: the result file.",
         f"Max norm of all steps up to t on uniform starting positions, {' and '.join(filter(None, horizon))}. Pale "
         "gray: what theory allows, where it allows anything finite. Curves that leave a panel above go on.",
-        tuple(ordered(found, lambda finding: finding.statement)))]
+        tuple(ordered(found, lambda finding: finding.statement)), says=f"{says.verdicts(found)}.")]
 
 
 def growth_figure(found):

@@ -21,7 +21,7 @@ def drawings(study):
         "delta/h, a panel per scheme, a curve per integrator. Values: table below.",
         "Largest CFL number, by bisection, up to which no step grows beyond φ(CΔt) in the max norm, φ the stability "
         "function of the integrator; where velocities vary, C > 0, implicit steps have to stay below its pole, a level "
-        f"line. Lines: the least over {', '.join(arrangements)} particles; shaded: up to the largest. Black line: the "
+        f"line. Lines: the least over {', '.join(arrangements)} particles; shaded: up to the largest. Thick line at 1: the "
         "condition that the lemmas print; it does not suffice where a limit lies below it. Gray: the condition that the "
         f"rows of the scheme need, of the first integrator. Marks at the edges: triangles above, no limit up to "
         f"{SEARCH_END:g}, where the search ends; crosses below, no step is stable. Integrators without any limit are "

@@ -67,7 +67,21 @@ def _map_drawing(study, found, arrangement, allowed, part):
         f"monotonicity{taken_for}), and the largest CFL numbers, by bisection, at which no single step grows beyond "
         "φ(CΔt), φ its stability function, in the max norm and in the spectral radius. A line that leaves a panel "
         "above goes to a value there, or to none.",
-        tuple(f"{one}, {kind}" for one in lemmas for kind in ("map", NORM, SPECTRAL)))
+        tuple(f"{one}, {kind}" for one in lemmas for kind in ("map", NORM, SPECTRAL)),
+        says=_says([finding for finding in found if not finding.control], allowed))
+
+
+def _says(found, allowed):
+    """Up to which CFL number nothing grows beyond what is allowed, the least over all schemes and integrators."""
+    least = []
+    for finding in found:
+        beyond = band(finding.points.value, allowed) > 0
+        if beyond.any():
+            least.append((finding.points.variable[beyond].min(), f"{finding.subject}, {integrator_of(finding)}"))
+    if not least:
+        return "Nothing grows beyond what is allowed, at any CFL number and horizon of the map."
+    cfl, where = min(least)
+    return f"Growth beyond what is allowed begins at a CFL number of {cfl:.3g} ({where})."
 
 
 def map_figure(found, study, allowed):

@@ -1,17 +1,15 @@
 """Axes whose ticks cost next to nothing: matplotlib makes five objects of each, which took half of a report's time."""
 
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FixedFormatter, FixedLocator
-from matplotlib.transforms import ScaledTranslation
+from matplotlib.transforms import IdentityTransform, ScaledTranslation
 import numpy as np
 
-MAJOR, MINOR = dict(markersize=3.5, markeredgewidth=0.7), dict(markersize=2.0, markeredgewidth=0.5)
-PAD = 3.5       # points between a tick and its label
-# Markers that point into the panel, by side.
-_INWARD = {"bottom": 2, "top": 3, "left": 1, "right": 0}
-_OUTWARD = {"bottom": 3, "top": 2, "left": 0, "right": 1}
+MAJOR, MINOR = (3.5, 0.7), (2.0, 0.5)       # length and width of a tick, in points
+PAD = 3.5                                   # points between a tick and its label
 
 
 class Panel(Axes):
@@ -50,32 +48,44 @@ class Panel(Axes):
 
     def draw(self, renderer):
         """Ticks and labels are there while it is drawn, for their places depend on the fonts of the file."""
-        added = [*self._ticks(self.xaxis, ("bottom", "top"), renderer),
-                 *self._ticks(self.yaxis, ("left", "right"), renderer)]
+        added = [*self._ticks(MAJOR, "get_majorticklocs"), *self._ticks(MINOR, "get_minorticklocs"),
+                 *self._labels(self.xaxis, "bottom", renderer), *self._labels(self.yaxis, "left", renderer)]
         for artist in added:
             self.add_artist(artist)
         super().draw(renderer)
         for artist in added:
             artist.remove()
 
-    def _ticks(self, axis, sides, renderer):
-        """Ticks, their labels and that of the axis."""
-        across = sides[0] == "bottom"
-        transform = self._along(across)
-        major, labels = _within(axis)
-        for places, look in ((major, MAJOR), (_inside(axis, axis.get_minorticklocs()), MINOR)):
+    def _ticks(self, look, places_of):
+        """All major or all minor ticks, as one path in pixels."""
+        length, width = look
+        length *= self.figure.dpi / 72 * (-1 if self._shown.get("direction") == "out" else 1)
+        lines = []
+        for axis, sides in ((self.xaxis, ("bottom", "top")), (self.yaxis, ("left", "right"))):
+            places = _inside(axis, getattr(axis, places_of)())
             for edge, side in enumerate(sides):
                 if self._shown.get(side) and len(places):
-                    edges = np.full(len(places), edge)
-                    points = (places, edges) if across else (edges, places)
-                    marker = (_OUTWARD if self._shown.get("direction") == "out" else _INWARD)[side]
-                    yield Line2D(*points, linestyle="none", marker=marker, color="black", transform=transform,
-                                 clip_on=False, zorder=1.5, **look)
+                    across = side in ("bottom", "top")
+                    at = np.column_stack((places, np.full(len(places), edge))[::1 if across else -1])
+                    start = self._along(across).transform(at)
+                    lines.append(np.stack((start, start + np.array((0, 1) if across else (1, 0))
+                                           * length * (1 - 2 * edge)), axis=1))
+        if lines:
+            points = np.concatenate(lines).reshape(-1, 2)
+            yield PathPatch(Path(points, [Path.MOVETO, Path.LINETO] * (len(points) // 2)), transform=IdentityTransform(),
+                            linewidth=width, edgecolor="black", fill=False, clip_on=False, zorder=1.5,
+                            capstyle="butt")
+
+    def _labels(self, axis, side, renderer):
+        """The labels of the ticks of an axis, and its own."""
+        across = side == "bottom"
+        major, labels = _within(axis)
         texts = []
-        if self._shown[f"label{sides[0]}"]:
-            outside = MAJOR["markersize"] if self._shown.get("direction") == "out" else 0.0
+        if self._shown[f"label{side}"]:
+            outside = MAJOR[0] if self._shown.get("direction") == "out" else 0.0
             shift = -(PAD + outside) / 72
-            transform += ScaledTranslation(*((0, shift) if across else (shift, 0)), self.figure.dpi_scale_trans)
+            shift = (0, shift) if across else (shift, 0)
+            transform = self._along(across) + ScaledTranslation(*shift, self.figure.dpi_scale_trans)
             of_side = dict(va="top", ha="center") if across else dict(va="center_baseline", ha="right")
             for place, label in zip(major, labels):
                 texts.append(Text(*((place, 0) if across else (0, place)), label, transform=transform, clip_on=False,

@@ -17,17 +17,16 @@ from reading import names, work_precision
 def drawings(studies, styles):
     """A figure for each scene that has errors and run times."""
     drawn = []
-    for chosen in _by_scene(cost_curves(studies)):
-        scene = _scene_name(chosen)
+    for scene, chosen in _by_scene(cost_curves(studies)).items():
         drawn.append(Drawing(
             f"cost.{slug(scene)}", f"Error against run time: {scene}", cost_figure(chosen, styles),
-            f"Log-log plot of the max-norm error against the run time of every scheme on {scene}, a panel per path. "
-            "Values: the table of each study.",
-            "Run time of the whole time loop, or a case's share of it where several advance on the same particles: "
-            "median of the repeats, bars from the fastest to the slowest. On gray, with N: the efficient frontier, the "
-            "runs that no other run of the panel beats in both error and time. Nonlocal: errors against the nonlocal "
-            "model, at a fixed horizon. Comparable only between runs of one "
-            "machine. Series run by several studies are drawn once.", says=_says(chosen)))
+            f"Log-log plot of the max-norm error against the run time of every scheme on the scene {scene}, a panel per "
+            "path. Values: tables of the studies.",
+            f"Scene {scene}. Run time of the whole time loop, or a case's share of it where several advance on the same "
+            "particles: median of the repeats, bars from the fastest to the slowest. On gray, with N: the efficient "
+            "frontier, the runs that no other run of the panel beats in both error and time. Nonlocal: errors against "
+            "the nonlocal model, at a fixed horizon. Comparable only between runs of one machine. Series run by several "
+            "studies are drawn once.", says=_says(chosen)))
     return drawn
 
 
@@ -47,17 +46,17 @@ def cost_curves(studies):
 
 
 def _by_scene(chosen):
-    """The curves (study, series) of each scene, as far as they have points to draw."""
+    """{name of a scene: its curves (study, series)}, as far as they have points to draw; T only tells scenes apart."""
     scenes = {}
     for study, series in chosen:
         if np.any(np.isfinite(axes.drawable(series.cases.seconds, series.cases.error_linf)[0])):
             scenes.setdefault(astuple(study.scene), []).append((study, series))
-    return scenes.values()
-
-
-def _scene_name(chosen):
-    study = chosen[0][0]
-    return f"scene {study.scene.name} to T = {study.scene.T:.4g}" if study.scene.name else f"scene of {study.name}"
+    named = {}
+    for curves in scenes.values():
+        study = curves[0][0]
+        name = study.scene.name or study.name
+        named[f"{name} to T = {study.scene.T:.4g}" if name in named else name] = curves
+    return named
 
 
 def cost_figure(chosen, styles):

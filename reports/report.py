@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
 """Draws the figures and the page of acstudy's result files: python3 reports/report.py [OUT_DIR] [STUDY.h5 ...]
+                        [--figures DIR [--format svg,png,pdf]] [--folder]
 
 Exit codes: 0 done; 2 bad usage, nothing written; 4 a file that cannot be read or written, or a process that was killed;
 130 interrupted.
 """
 
 import argparse
-from contextlib import closing
 import os
 from pathlib import Path
 import sys
 import tempfile
 
 DEFAULT = "reports/out"
+FORMATS = ("svg", "png", "pdf")
 
 
 class UsageError(Exception):
@@ -26,14 +27,14 @@ def main(arguments=None):
         from drawing import processes
         from reading import results
         try:
-            print(report(*_inputs(options)))
+            print(report(*_inputs(options), *_figures(options), options.folder))
         except (results.ResultError, processes.DrawingKilled) as error:
             return _fail(4, error)
     except UsageError as error:
         return _fail(2, error)
     except ImportError as error:
-        return _fail(4, f"{error}; install matplotlib and h5py (Debian, Ubuntu, Fedora: python3-matplotlib "
-                        "python3-h5py; conda-forge and pip: matplotlib h5py)")
+        return _fail(4, f"{error}; install matplotlib, h5py and Jinja2 (Debian, Ubuntu, Fedora: "
+                        "python3-matplotlib python3-h5py python3-jinja2; conda-forge and pip: matplotlib h5py jinja2)")
     except OSError as error:
         return _fail(4, f"{error.filename or 'output'}: {error.strerror or error}; free space or name another folder")
     except KeyboardInterrupt:
@@ -41,41 +42,30 @@ def main(arguments=None):
     return 0
 
 
-def report(folder, files):
-    """Draws every figure of the result files and benches and the pages into `folder`; the path of the first page."""
-    from drawing import processes
-    from kinds import registry, run_times
-    from kinds.bench import figures as bench_figures
-    from pages import bench as bench_page, claims, comparison, mutants, page
-    from reading import bench_results, results
+def report(folder, files, figures=None, formats=(), parts=False):
+    """Draws the figures of the result files and benches and the page into `folder`; the path of the page.
 
-    with closing(processes.results([(results.read_study, file) for file in files], len(files))) as read_in_turn:
-        studies = list(read_in_turn)
+    figures: a folder for the figures as files of these `formats`, or None; parts: a page for each question.
+    """
+    from pages import comparison, making, mutants, page
+    from reading import bench_results
+    from reading.kept import Kept
+
+    kept = Kept(folder, _write)
+    studies = making.read(files, kept)
     _refuse_clashes(studies)
-    seeded, compared = mutants.read(folder), comparison.read(folder)
     benches = bench_results.read_all(folder)
-    styles = registry.styles(studies)
-    drawings = {}
-    names = (*(study.name for study in studies), "cost", "bench")
-    tasks = [*((registry.drawings, study, styles) for study in studies),
-             (run_times.drawings, registry.with_run_times(studies), styles), (bench_figures.drawings, benches, styles)]
-    with closing(processes.in_turn(tasks, len(studies) + bool(benches), ("svg",))) as drawn_in_turn:
-        for name, drawn in zip(names, drawn_in_turn):
-            for one in drawn:
-                for kind, content in one.files.items():
-                    _write(folder / f"{one.stem}.{kind}", content)
-            drawings[name] = drawn
-    cost = drawings.pop("cost")
-    of_benches = drawings.pop("bench")
-    if benches:
-        links = [("index.html", "all studies")] if studies else []
-        _write(folder / bench_page.FILE, bench_page.html(benches, of_benches, links).encode("utf-8"))
-    if not studies:
-        return folder / bench_page.FILE
-    index = folder / "index.html"
-    _write(index, page.html(studies, drawings, cost, seeded, compared, bool(benches)).encode("utf-8"))
-    _write(folder / "claims.html", claims.html(studies, drawings).encode("utf-8"))
-    return index
+    seeded, compared = mutants.read(folder), comparison.read(folder)
+    drawn = making.drawn(studies, benches, kept, formats)
+    if figures:
+        figures.mkdir(parents=True, exist_ok=True)
+        for one in (one for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group):
+            for kind, content in one.files.items():
+                _write(figures / f"{one.stem}.{kind}", content)
+    for name, text in page.files(studies, drawn, benches, seeded, compared, parts, kept).items():
+        _write(folder / name, text.encode("utf-8"))
+    kept.clear()
+    return folder / "index.html"
 
 
 def _options(arguments):
@@ -87,11 +77,28 @@ def _options(arguments):
                         help=f"folder of the result files and of the report (default: {DEFAULT})")
     parser.add_argument("studies", metavar="STUDY.h5", nargs="*",
                         help="result files to report on (default: all in OUT_DIR)")
+    parser.add_argument("--figures", metavar="DIR", help="write the figures as files into DIR too")
+    parser.add_argument("--format", metavar="LIST", help=f"of those files, with commas: {', '.join(FORMATS)} (default: svg)")
+    parser.add_argument("--folder", action="store_true",
+                        help="write a page for each question beside index.html, not one page that can be mailed")
     options = parser.parse_args(arguments)
     if options.out_dir.endswith(".h5") and not Path(options.out_dir).is_dir():
         options.studies.insert(0, options.out_dir)
         options.out_dir = DEFAULT
     return options
+
+
+def _figures(options):
+    """(folder of the figures or None, their formats)."""
+    if options.format and not options.figures:
+        raise UsageError(f"--format {options.format}: of which files? name their folder with --figures DIR")
+    if not options.figures:
+        return None, ()
+    formats = tuple(dict.fromkeys((options.format or "svg").split(",")))
+    for one in formats:
+        if one not in FORMATS:
+            raise UsageError(f'--format: "{one}" is no format of a figure; write some of {", ".join(FORMATS)}, with commas')
+    return Path(options.figures), formats
 
 
 def _inputs(options):
@@ -109,7 +116,7 @@ def _inputs(options):
 
 
 def _refuse_clashes(studies):
-    """Two studies of one name would overwrite each other's figure, and cost and bench are names of other figures."""
+    """Two studies of one name would share a place, and cost and bench are names of other figures."""
     seen = {}
     for study in studies:
         if study.name in ("cost", "bench"):

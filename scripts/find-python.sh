@@ -1,5 +1,5 @@
 #!/bin/sh
-# Prints the path of a Python that draws the report, that is, can import matplotlib, numpy and h5py.
+# Prints the path of a Python that draws the report, that is, can import matplotlib, numpy, h5py and jinja2.
 # $PYTHON comes first. Exit 4 when there is none, with what each candidate lacks.
 set -u
 
@@ -8,7 +8,7 @@ lacks() {
 import importlib, sys
 
 lacking = [] if sys.version_info >= (3, 9) else ["version 3.9"]
-for module in ("matplotlib", "numpy", "h5py"):
+for module in ("matplotlib", "numpy", "h5py", "jinja2"):
     try:
         importlib.import_module(module)
     except Exception:
@@ -33,6 +33,6 @@ for candidate in ${PYTHON:+"$PYTHON"} python3 /usr/bin/python3 /usr/local/bin/py
     tried="$tried
     $python lacks $lacking"
 done
-printf 'acstudy: no Python can draw the report: it has to import matplotlib, numpy and h5py; name one with PYTHON%s\n' "${tried:-
+printf 'acstudy: no Python can draw the report: it has to import matplotlib, numpy, h5py and jinja2; name one with PYTHON%s\n' "${tried:-
     there is no python3 on the PATH}" >&2
 exit 4

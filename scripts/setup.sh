@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes sure that what acstudy needs is installed.
 #
-#   scripts/setup.sh [build|report|test|bench|lint]...        (default: build report)
+#   scripts/setup.sh [build|report|test|browser|bench|lint]...        (default: build report)
 #
 # Debian, Ubuntu: installs what is missing with apt-get, having said so; SETUP=off never installs.
 # Elsewhere: names what is missing, with its package for Homebrew, conda-forge and Fedora.
@@ -29,8 +29,13 @@ build  nlohmann-json  nlohmann/json.hpp                             nlohmann-jso
 report matplotlib     @python                                       python3-matplotlib  python-matplotlib matplotlib-base  python3-matplotlib
 report numpy          @python                                       python3-numpy       numpy             numpy            python3-numpy
 report h5py           @python                                       python3-h5py        pip:h5py          h5py             python3-h5py
+report Jinja2         @python                                       python3-jinja2      pip:jinja2        jinja2           python3-jinja2
 bench  benchmark      benchmark/benchmark.h                         libbenchmark-dev    google-benchmark  benchmark        google-benchmark-devel
 test   Catch2         catch2/catch_test_macros.hpp,catch2/catch.hpp catch2              catch2            catch2           catch-devel
+browser Chromium      chromium                                      chromium            ungoogled-chromium -               chromium
+browser chromedriver  chromedriver                                  chromium-driver     chromedriver      python-chromedriver-binary chromedriver
+browser Selenium      @selenium                                     python3-selenium    pip:selenium      selenium         python3-selenium
+browser npm           npm                                           npm                 node              nodejs           nodejs-npm
 lint   clang-format   clang-format                                  clang-format        clang-format      clang-format     clang-tools-extra
 END
 }
@@ -71,6 +76,8 @@ cmake_is_new_enough() {
     minor=${minor%%.*}
     [ "$major" -gt 3 ] || { [ "$major" -eq 3 ] && [ "$minor" -ge 20 ]; }
 }
+
+selenium_is_there() { "$("$here/find-python.sh" 2>/dev/null)" -c "import selenium" 2>/dev/null; }
 
 python_is_there() { "$here/find-python.sh" >/dev/null 2>&1; }
 
@@ -130,11 +137,13 @@ missing() {
         case $found in
             @compiler) compiler_is_new_enough ;;
             @cmake) cmake_is_new_enough ;;
-            @python | */* | *.h)
+            @python | @selenium | */* | *.h)
                 if [ "${1:-}" = packages ]; then
                     case $installed in *" $package:installed "*) ;; *) false ;; esac
                 elif [ "$found" = @python ]; then
                     [ -n "$python" ]
+                elif [ "$found" = @selenium ]; then
+                    selenium_is_there
                 else
                     case $absent in *" $name "*) false ;; esac
                 fi
@@ -208,8 +217,8 @@ explain_too_old() {
 [ $# -gt 0 ] || set -- build report
 for purpose; do
     case $purpose in
-        build | report | bench | test | lint) ;;
-        *) say "$0: no purpose \"$purpose\"; write build, report, bench, test or lint" && exit 2 ;;
+        build | report | bench | test | browser | lint) ;;
+        *) say "$0: no purpose \"$purpose\"; write build, report, bench, test, browser or lint" && exit 2 ;;
     esac
 done
 case ${SETUP:-on} in on | off) ;; *) say "SETUP = $SETUP; write SETUP=off, or leave it out" && exit 2 ;; esac

@@ -111,6 +111,11 @@ def write(folder, name, *all_series, title="A study", fixed_length=False, findin
     return path
 
 
+def of_study(html, name):
+    """The part of a page that is about a study."""
+    return html.partition(f'<article class="study" id="{name}"')[2].partition("</article>")[0]
+
+
 class ReportTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

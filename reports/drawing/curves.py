@@ -4,7 +4,7 @@ import textwrap
 
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import GRAY, WIDTH, add_axes, blank, mark_departing, typography
 from drawing.subjects import (GAP, LEFT, RIGHT, arrangement, conditions, legend_height, subject_legend, subject_styles,
                               variable_math)
@@ -44,7 +44,8 @@ def curves_figure(found, one_bound=False):
                 for finding in cell:
                     style = styles[finding.subject]
                     x, y, _ = _curve(finding)
-                    panel.plot(x, y, **style, alpha=0.35 if finding.control else 1.0)
+                    curve, = panel.plot(x, y, **style, alpha=0.35 if finding.control else 1.0)
+                    hover.mark(curve, finding.subject, f"{finding.check}: {finding.verdict}", **_said(finding))
                     if not finding.as_expected:
                         mark_departing(panel, x, y)
                 if one_bound:
@@ -84,6 +85,13 @@ def bounded(finding):
 
 def _bounds(found):
     return [(finding.points.variable, finding.points.upper, None) for finding in found if bounded(finding)]
+
+
+def _said(finding):
+    """What is said of its points, in the order in which they are drawn."""
+    points, order = finding.points, np.argsort(finding.points.variable, kind="stable")
+    said = {"N": points.N, "h": points.h, "δ": points.delta, finding.quantity: points.value}
+    return {name: values[order] for name, values in said.items() if np.any(values > 0)}
 
 
 def drawable(finding):

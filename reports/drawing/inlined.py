@@ -16,6 +16,7 @@ DARK = {"#000000": "#e8ebee", "#ffffff": "#14181d", "#333333": "#c3c9cf", "#5959
         "#0072b2": "#4fa3f7", "#d55e00": "#ff8b3d", "#009e73": "#2cc79a", "#cc79a7": "#e59cc8", "#e69f00": "#f2b632",
         "#56b4e9": "#9ad6fa", "#a40e26": "#ff7085"}
 SERIES = "s:"       # begins the gid of what is drawn of a series; its key follows
+LEGEND = "l:"       # the same of what a legend shows of it
 # An identifier that matplotlib made up.
 _MADE_UP = re.compile(r"[A-Za-z0-9.]+_\d+$")
 _DECIMALS = re.compile(r"(\.\d\d)\d+")
@@ -115,6 +116,7 @@ class _Figure:
         parts = list(_joined(parts))
         if name and not _MADE_UP.match(name):
             attributes |= ({"data-series": name.removeprefix(SERIES)} if name.startswith(SERIES) else
+                           {"data-legend": name.removeprefix(LEGEND)} if name.startswith(LEGEND) else
                            {"id": f"{self.stem}.{name}"})
         elif attributes and all(part.tag == "text" for part in parts) and "transform" not in attributes:
             for text in parts:

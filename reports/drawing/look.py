@@ -9,7 +9,7 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from drawing import svg
+from drawing import hover, svg
 from drawing.panel import Panel
 
 # Okabe and Ito's colors, told apart by readers of every color vision; their yellow is left out: too pale for a line.
@@ -53,6 +53,7 @@ class Drawing:
     statements: tuple = ()  # of theory that it shows; empty: those of its whole study
     says: str = ""          # what to see in it, a sentence made of the results
     inline: str = ""        # the figure as an element of a page, once it is rendered; see svg.inline
+    curves: tuple = ()      # hover.Curve of each that is marked, once it is rendered
     files: dict = field(default_factory=dict)   # content by extension, once it is rendered: those asked for
 
 
@@ -76,8 +77,8 @@ def add_axes(figure, left, bottom, width, height, kind=Panel, **more):
 
 def foot_legend(figure, left, keys, texts, columns, spacing=2.0, bottom=0.1, **more):
     """A legend whose lower left corner is at a place in inches. `texts`: as matplotlib sets them."""
-    figure.legend(keys, texts, loc="lower left", ncol=columns, columnspacing=spacing,
-                  bbox_to_anchor=(left / WIDTH, bottom / figure.get_figheight()), **LEGEND | more)
+    return figure.legend(keys, texts, loc="lower left", ncol=columns, columnspacing=spacing,
+                         bbox_to_anchor=(left / WIDTH, bottom / figure.get_figheight()), **LEGEND | more)
 
 
 def mark_departing(panel, x, y, width=4):
@@ -87,10 +88,12 @@ def mark_departing(panel, x, y, width=4):
 
 def render(drawing, formats=()):
     """The drawing with its figure as an element of a page and as files of these of FORMATS, and without matplotlib's."""
+    curves = hover.curves(drawing.figure)
     drawn = _saved(drawing.figure, drawing.title, "svg").decode()
     files = {kind: svg.readable(drawn).encode() if kind == "svg" else _saved(drawing.figure, drawing.title, kind)
              for kind in formats}
-    return replace(drawing, inline=svg.inline(drawn, drawing.stem, drawing.alt), files=files, figure=None)
+    return replace(drawing, inline=svg.inline(drawn, drawing.stem, drawing.alt), curves=curves, files=files,
+                   figure=None)
 
 
 def image(figure, title, kind):

@@ -4,6 +4,7 @@ import math
 
 from matplotlib.lines import Line2D
 
+from drawing import hover
 from drawing.look import COLORS, DASHES, LINE, MARKERS, foot_legend
 from reading import names
 
@@ -34,8 +35,9 @@ def legend_height(styles):
 
 
 def subject_legend(figure, styles):
-    foot_legend(figure, LEFT, [Line2D([], [], **style) for style in styles.values()], map(names.literal, styles),
-                legend_columns(styles))
+    key = foot_legend(figure, LEFT, [Line2D([], [], **style) for style in styles.values()], map(names.literal, styles),
+                      legend_columns(styles))
+    hover.mark_legend(key, styles)
 
 
 def variable_math(name):

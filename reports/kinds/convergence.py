@@ -3,20 +3,21 @@
 Nothing is fitted here; orders, intervals and verdicts are those of the result file.
 """
 
-from html import escape
 import math
 import textwrap
 
+from markupsafe import Markup
 from matplotlib.lines import Line2D
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.frames import panel_frames
 from drawing.look import DEPARTING, GRAY, LEGEND, LINE, Drawing, foot_legend, typography
-from kinds.kind import Kind, Summary
+from drawing.timed import of_cases
+from kinds.kind import Kind
 from reading import names
-from writing import markup
-from writing.series import article, labeled
+from writing import figures, markup
+from writing.series import cases_fold, series_table
 
 COINCIDE = 0.01     # relative difference of errors below which two curves are said to lie on one another
 
@@ -61,22 +62,24 @@ def error_figure(study, styles):
                                                limits)
         for frame, (path, group), drawn, lines, texts, span in zip(frames, panels.items(), curves, references, legends,
                                                                    limits):
-            _error_panel(frame, path, group, drawn, (span, bounds), lines)
-            _legend(frame, group, drawn, texts, beside=not several)
+            _error_panel(frame, path, group, drawn, (span, bounds), lines, labels)
+            _legend(frame, group, drawn, texts, not several, labels)
             if frame.first:
                 measured = "error" if study.scene.u else "difference to a finer run"
                 frame.axes.set_ylabel(f"max-norm {measured} at $T = {study.scene.T:.4g}$")
         if several:
-            foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in keys.values()],
-                        map(names.literal, keys), 2)
+            key = foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in keys.values()],
+                              map(names.literal, keys), 2)
+            hover.mark_legend(key, keys)
         return figure
 
 
-def _error_panel(frame, path, group, curves, limits, references):
+def _error_panel(frame, path, group, curves, limits, references, labels):
     panel = frame.axes
     panel.set_title(names.path_math(path), pad=21)
-    for x, y, style in curves:
-        panel.plot(x, y, **style.line())
+    for (x, y, style), result in zip(curves, group):
+        curve, = panel.plot(x, y, **style.line())
+        hover.mark(curve, labels[result.series.scheme], _about(result), **of_cases(result.series.cases))
     axes.set_log_limits(panel, *limits, frame.inches)
     axes.name_levels(panel, [(result.series.cases.variable, result.series.cases.N) for result in group], frame.inches[0],
                      lead=frame.first)
@@ -85,13 +88,21 @@ def _error_panel(frame, path, group, curves, limits, references):
     panel.set_xlabel(" or ".join(dict.fromkeys(names.variable_math(result.variable_name) for result in group)))
 
 
-def _legend(frame, group, curves, texts, beside):
+def _legend(frame, group, curves, texts, beside, labels):
     place = (1.04, 1.0) if beside else (0, -0.52 / frame.inches[1])
     legend = frame.axes.legend([Line2D([], [], **style.line()) for *_, style in curves], texts, loc="upper left",
                                bbox_to_anchor=place, **LEGEND)
     for text, result in zip(legend.get_texts(), group):
         text.set_color("black" if result.as_expected else DEPARTING)
         text.set_linespacing(1.12)
+    hover.mark_legend(legend, [labels[result.series.scheme] for result in group])
+
+
+def _about(result):
+    """A series in a line, for who points at it."""
+    interval = f"[{names.order(result.observed_low)}, {names.order(result.observed_high)}]"
+    return (f"{result.series.path}; order {names.order(result.observed_order)} {interval}, theory "
+            f"{names.order(result.theory_order, '{:g}')}: {result.verdict}")
 
 
 def _curve(result, style):
@@ -167,28 +178,12 @@ def _by_path(findings):
 
 # ------------------------------------------------------------------------------------------------------- on the page
 
-def _summary_rows(study):
-    return "".join(_summary_row(study, result, label) for result, label in labeled(study))
-
-
-def _summary_row(study, result, label):
-    theory = (f"{names.order(result.theory_order, '{:g}')} in {markup.variable(result.variable_name)}"
-              f' <span class="note">{escape(result.series.theory_statement)}</span>')
-    interval = f"[{names.order(result.observed_low)}, {names.order(result.observed_high)}]"
-    return (f'<tr{markup.departs(result)}><td><a href="#{study.name}">{study.name}</a></td>'
-            f'<th scope="row">{escape(label)}</th><td>{escape(result.series.path)}</td><td class="theory">{theory}</td>'
-            f'<td class="number">{names.order(result.observed_order)}</td><td class="number">{interval}</td>'
-            f'<td class="number">{names.order(result.series.observed_fitted)}</td>'
-            f"<td>{markup.badge(result)}</td><td>{markup.expected(result)}</td></tr>\n")
-
-
 def _section(study, drawings, entries):
     if not study.findings:
-        return "<p>No series has been run.</p>\n"
-    return "".join((*map(markup.figure, drawings), *(article(result, label) for result, label in labeled(study))))
+        return markup.joined([Markup("<p>No series has been run.</p>\n")])
+    departing = sum(not result.as_expected for result in study.findings)
+    return markup.joined((markup.outcome({"series": departing}, {"series": len(study.findings)}),
+                          *map(figures.figure, drawings), series_table(study), cases_fold(study)))
 
 
-KIND = Kind(drawings, _section, Summary("series", "", ("study", "scheme", "path", "theory's order", "observed order",
-                                                       "95 % interval", "by a power law alone", "verdict",
-                                                       "as expected"), "Claims and verdicts", _summary_rows),
-            run_times=True)
+KIND = Kind(drawings, _section, run_times=True, noun="series")

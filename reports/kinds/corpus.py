@@ -1,26 +1,27 @@
 """The corpus: synthetic series whose right verdict is known."""
 
-from html import escape
+from markupsafe import Markup
 
 from kinds.kind import Kind
-from writing import markup
+from writing import markup, tables
+
+COLUMNS = ("series", "~why", "#theory's order", "right verdict", "given verdict", "right")
 
 
 def table(study):
     """A row per synthetic series: what is right, and what it got."""
-    rows = "".join(
-        f'<tr{markup.departs(finding)}><th scope="row">{escape(finding.subject)}</th>'
-        f'<td class="said">{escape(finding.claim)}</td><td class="number">{finding.theory_order:g}</td>'
-        f"<td>{escape(' or '.join((finding.expected, *finding.also_expected)))}</td>"
-        f"<td>{markup.badge(finding)}</td><td>{'yes' if finding.as_expected else '<strong>no</strong>'}</td></tr>\n"
-        for finding in study.findings)
-    columns = ("series", "why", "theory's order", "right verdict", "given verdict", "right")
-    return markup.table(columns, rows, study.title)
+    return tables.table(study.title, COLUMNS, [
+        tables.Row((finding.subject, finding.claim, f"{finding.theory_order:g}",
+                    " or ".join((finding.expected, *finding.also_expected)), markup.badge(finding),
+                    "yes" if finding.as_expected else Markup("<strong>no</strong>")), not finding.as_expected)
+        for finding in study.findings])
 
 
 def _section(study, drawings, entries):
     departing = sum(not entry.as_expected for entry in entries)
-    return markup.outcome({"findings": departing}, {"findings": len(entries)}) + table(study)
+    said = Markup('Every series <span class="note">{}: what is right, and what it got</span>').format(len(entries))
+    return markup.joined((markup.outcome({"findings": departing}, {"findings": len(entries)}),
+                          tables.fold(said, table(study), departing > 0, kind="findings")))
 
 
 def _held_to(study):

@@ -11,7 +11,7 @@ from matplotlib.patheffects import Stroke, Normal
 import matplotlib
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from kinds.kind import Kind
 from kinds.says import verdicts
@@ -226,16 +226,19 @@ def cuts_figure(evidence, planes):
                                   markersize=3.6 if filled else 6.5, markerfacecolor=color if filled else "none")
         for (scheme, target), (h, delta, error) in planes.items():
             dash = DASHES[1] if target == "local" else "solid"
-            errors.plot(delta, error[:, 0], linestyle=dash, **styles[scheme])
+            curve, = errors.plot(delta, error[:, 0], linestyle=dash, **styles[scheme])
+            hover.mark(curve, labels[scheme], TARGETS[target], δ=delta, **{"δ/h": delta / h[0], "max-norm error": error[:, 0]})
             x, order, low, high = _cuts(evidence, scheme, target)
             passing = (x >= finest) & (x <= coarsest)
             bars = np.nan_to_num(np.clip([order - low, high - order], 0, None))
             # Schemes beside each other, for the bars of schemes that agree would hide one another.
-            x = x * 1.07 ** (schemes.index(scheme) - (len(schemes) - 1) / 2)
+            at, x = x, x * 1.07 ** (schemes.index(scheme) - (len(schemes) - 1) / 2)
             for shown, line in ((~passing, dict(linestyle=dash)), (passing, dict(linestyle="none", alpha=0.3))):
                 if shown.any():
-                    orders[target].errorbar(x, np.where(shown, order, np.nan), yerr=np.where(shown, bars, 0.0),
-                                            elinewidth=0.8, **styles[scheme], **line)
+                    curve = orders[target].errorbar(x, np.where(shown, order, np.nan), yerr=np.where(shown, bars, 0.0),
+                                                    elinewidth=0.8, **styles[scheme], **line)
+                    hover.mark(curve, labels[scheme], TARGETS[target], δ=at, order=order,
+                               interval=[f"[{names.order(a)}, {names.order(b)}]" for a, b in zip(low, high)])
         limits = axes.padded(np.concatenate([delta for _, delta, _ in planes.values()]))
         bounds, (lines,) = axes.error_bounds([([(delta, error[:, 0], None) for _, delta, error in planes.values()],
                                                [1.0])], (width, tall))
@@ -256,8 +259,9 @@ def cuts_figure(evidence, planes):
         errors.set_ylabel("max-norm error at the finest $h$")
         keys = [Line2D([], [], **styles[scheme]) for scheme in schemes]
         keys += [Line2D([], [], color=GRAY, linestyle="solid"), Line2D([], [], color=GRAY, linestyle=DASHES[1])]
-        foot_legend(figure, left, keys, [*(labels[scheme] for scheme in schemes), *TARGETS.values()], 2, spacing=2.5,
-                    bottom=0.12)
+        key = foot_legend(figure, left, keys, [*(labels[scheme] for scheme in schemes), *TARGETS.values()], 2,
+                          spacing=2.5, bottom=0.12)
+        hover.mark_legend(key, [*(labels[scheme] for scheme in schemes), *(None for _ in TARGETS)])
         return figure
 
 

@@ -1,16 +1,15 @@
 """The table of extremes: what is to be expected at the ends of every range, what was observed, and all of it."""
 
-from html import escape
+from markupsafe import Markup
 
 from drawing.curves import curves_figure, drawable
 from drawing.look import Drawing, slug
 from drawing.subjects import arrangement, conditions
 from kinds import kind, says
 from reading import ledger
-from writing import markup
-from writing.tables import entry_table, worst_observed
+from writing import markup, tables
 
-COLUMNS = ("extreme", "expectation", "worst observed", "verdict", "negative controls", "as expected")
+COLUMNS = ("~extreme", "~expectation", "~worst observed", "verdict", "negative controls", "as expected")
 CAPTION = "Thin lines: theory's slope. Schemes that agree are drawn within one another."
 
 
@@ -36,15 +35,14 @@ def drawings(study, styles):
 
 def table(study, entries):
     """A row per expectation, each extreme with a link to its findings."""
-    rows = "".join(_row(study, extreme, claim, group, len(expectations) if i == 0 else 0)
-                   for extreme, expectations in _extremes(entries).items()
-                   for i, (claim, group) in enumerate(expectations.items()))
-    return markup.table(COLUMNS, rows, study.title) if rows else ""
+    rows = [_row(study, extreme, claim, group) for extreme, expectations in _extremes(entries).items()
+            for claim, group in expectations.items()]
+    return tables.table(study.title, COLUMNS, rows) if rows else ""
 
 
 def every_finding(study, entries):
     """All of each extreme, folded away unless something departs."""
-    return "".join(_fold(study, extreme, expectations) for extreme, expectations in _extremes(entries).items())
+    return markup.joined(_fold(study, extreme, group) for extreme, group in _extremes(entries).items())
 
 
 def _extremes(entries):
@@ -55,31 +53,29 @@ def _extremes(entries):
     return extremes
 
 
-def _row(study, extreme, claim, group, span):
+def _row(study, extreme, claim, group):
     expectation = ledger.Statement(extreme, tuple(group))
     caught = sum(entry.as_expected for entry in expectation.controls)
     departing = expectation.departing
-    head = (f'<th scope="rowgroup" rowspan="{span}"><a href="#{_anchor(study, extreme)}">{escape(extreme)}</a></th>'
-            if span else "")
     schemes = len({entry.subject for entry in expectation.tested})
-    tested = f'<br><span class="note">{len(expectation.tested)} findings on {schemes} subjects</span>' if schemes > 1 else ""
-    said = f"<strong>{len(departing)} of {len(group)} not</strong>" if departing else "all"
     worst = expectation.worst
-    quantity, finest = worst.finding.quantity, _finest(worst.finding)
-    note = f'<br><span class="note">{escape(finest)}</span>' if finest else ""
-    return (f'<tr{markup.departs_if(departing)}>{head}<td class="said">{escape(claim)}<br><span class="note">{escape(quantity)}</span>{tested}</td>'
-            f'<td class="said">{worst_observed(expectation)}{note}</td>'
-            f"<td>{markup.badge(worst, worst.control)}</td>"
-            f"<td>{caught} of {len(expectation.controls)} fail</td><td>{said}</td></tr>\n")
+    notes = [worst.finding.quantity, f"{len(expectation.tested)} findings on {schemes} subjects" if schemes > 1 else ""]
+    claimed = markup.joined([claim, *map(markup.note, filter(None, notes))], markup.BAR)
+    observed = markup.joined(filter(None, (tables.worst_observed(expectation), markup.note(_finest(worst.finding)))),
+                             markup.BAR)
+    said = (Markup("<strong>{} of {} not</strong>").format(len(departing), len(group)) if departing else "all")
+    return tables.Row((markup.link(_anchor(study, extreme), extreme), claimed, observed,
+                       markup.badge(worst, worst.control), f"{caught} of {len(expectation.controls)} fail", said),
+                      bool(departing))
 
 
 def _fold(study, extreme, expectations):
     group = [entry for entries in expectations.values() for entry in entries]
-    opened = " open" if any(not entry.as_expected for entry in group) else ""
-    tables = "".join(f"<p>{escape(claim)}</p>\n{entry_table(entries, claim)}"
-                     for claim, entries in expectations.items())
-    return (f'<details id="{_anchor(study, extreme)}"{opened}><summary>{escape(extreme)} '
-            f'<span class="note">{len(group)} findings</span></summary>\n{tables}</details>\n')
+    opened = any(not entry.as_expected for entry in group)
+    content = markup.joined(Markup("<p>{}</p>\n{}").format(claim, tables.entry_table(entries, f"{extreme}: {claim}"))
+                            for claim, entries in expectations.items())
+    said = Markup("{} {}").format(extreme, markup.note(f"{len(group)} findings"))
+    return tables.fold(said, content, opened, _anchor(study, extreme), "findings")
 
 
 def _finest(finding):

@@ -1,9 +1,11 @@
 """The registry of kinds: a row for each, and what is asked of it."""
 
+from functools import lru_cache
+
 from drawing.styles import styles_of
 from kinds import (consistency, controls, convergence, corpus, coverage, digits, error_map, extremes, identities,
                    pollution, scan, stability, stability_map, stepping)
-from kinds.kind import BY_FINDINGS, Kind
+from kinds.kind import Kind
 from reading import ledger
 
 KINDS = {
@@ -21,7 +23,6 @@ KINDS = {
     "stability": stability.KIND,
     "stability-map": stability_map.KIND,
 }
-SUMMARIES = (convergence.KIND.summary, stepping.KIND.summary, BY_FINDINGS)
 
 
 def of(study):
@@ -34,9 +35,10 @@ def drawings(study, styles):
     return of(study).drawings(study, styles)
 
 
+@lru_cache(maxsize=256)
 def entries(study):
     """What a study says, a line for each finding."""
-    return ledger.entries(study, of(study).disputes)
+    return tuple(ledger.entries(study, of(study).disputes))
 
 
 def styles(studies):

@@ -6,7 +6,7 @@ import math
 from matplotlib.lines import Line2D
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.frames import panel_frames
 from drawing.look import DASHES, LINE, MARKERS, Drawing, foot_legend, slug, typography
 from drawing.styles import Style
@@ -76,17 +76,18 @@ def cost_figure(chosen, styles):
         for frame, ((path, source), drawn) in zip(frames, panels.items()):
             frame.axes.set_title(names.path_math(path) + (", nonlocal" if source == "nonlocal" else ""))
             mark_frontier(frame.axes, *points[path, source])
-            for cases, _, style in drawn:
-                error_over_seconds(frame.axes, cases, **style.line())
+            for cases, text, style in drawn:
+                error_over_seconds(frame.axes, cases, name=text, about=path, **style.line())
             axes.set_log_limits(frame.axes, axes.padded(seconds, 0.09), axes.padded(errors, 0.09), frame.inches)
             if frame.first:
                 frame.axes.set_ylabel("max-norm error at $T$")
             if frame.last:
                 frame.axes.set_xlabel("run time (s)")
             frame.axes.tick_params(labelleft=frame.first, labelbottom=frame.last)
-        foot_legend(figure, frames[0].left, [*(Line2D([], [], **style.line()) for style in legend.values()),
-                                             Line2D([], [], **EFFICIENT)],
-                    [*map(names.literal, legend), "efficient frontier, with N"], columns)
+        key = foot_legend(figure, frames[0].left, [*(Line2D([], [], **style.line()) for style in legend.values()),
+                                                   Line2D([], [], **EFFICIENT)],
+                          [*map(names.literal, legend), "efficient frontier, with N"], columns)
+        hover.mark_legend(key, [*legend, None])
         return figure
 
 

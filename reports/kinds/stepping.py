@@ -1,21 +1,21 @@
 """Studies that step in several ways: error against run time, explicit beside implicit, and what each way came to."""
 
-from html import escape
 import math
 
+from markupsafe import Markup
 from matplotlib.lines import Line2D
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.timed import error_over_seconds
-from kinds.kind import Kind, Summary, departing_text, row_head
+from kinds.kind import Kind
 from reading import names
-from writing import markup
-from writing.series import article, labeled
+from writing import figures, markup, tables
+from writing.series import cases_fold, labeled, series_table
 
-COLUMNS = ("scheme", "path", "steps", "came to be", "as expected", "<var>N</var>", "max-norm error", "run time (s)",
-           "steps taken", "longest / bound", "beyond it from", "given up at")
+COLUMNS = ("scheme", "path", "~steps", "came to be", "as expected", Markup("#<var>N</var>"), "#max-norm error",
+           "#run time (s)", "#steps taken", "#longest / bound", "~beyond it from", "~given up at")
 
 
 def drawings(study, styles):
@@ -73,7 +73,7 @@ def run_time_figure(panels):
                     continue
                 panel = add_axes(figure, left + k * (width + gap), bottom, width, tall, xscale="log", yscale="log")
                 for result in panels[path, scheme]:
-                    _draw(panel, result.series.cases, ways.index(result.series.stepping))
+                    _draw(panel, result, ways.index(result.series.stepping))
                 axes.set_log_limits(panel, times, errors, (width, tall))
                 panel.minorticks_off()      # they would take half of the drawing time
                 last = i == len(paths) - 1
@@ -87,7 +87,8 @@ def run_time_figure(panels):
                 if k == 0:
                     panel.set_ylabel("max-norm error at $T$")
         keys = [Line2D([], [], **_style(i)) for i in range(len(ways))]
-        foot_legend(figure, left, keys, [names.literal(_said(way, every)) for way in ways], 2)
+        key = foot_legend(figure, left, keys, [names.literal(_said(way, every)) for way in ways], 2)
+        hover.mark_legend(key, ways)
         if _only_bounded(every):
             figure.text((WIDTH - right) / WIDTH, 0.12 / figure.get_figheight(),
                         "stable: the solution stays bounded;\nits error is not expected to fall", ha="right", va="bottom",
@@ -108,64 +109,53 @@ def _style(i):
                 markerfacecolor=color if i % 2 == 0 else "none")
 
 
-def _draw(panel, cases, i):
-    error_over_seconds(panel, cases, **_style(i))
+def _draw(panel, result, i):
+    series, cases = result.series, result.series.cases
+    error_over_seconds(panel, cases, name=series.stepping, about=f"{series.path}: {result.verdict}", **_style(i))
     lost = ~np.isfinite(cases.error_linf) & (cases.seconds > 0)
-    panel.plot(cases.seconds[lost], np.full(lost.sum(), 0.975), linestyle="none", marker="x", markersize=6,
-               color=_style(i)["color"], transform=panel.get_xaxis_transform())
+    crosses, = panel.plot(cases.seconds[lost], np.full(lost.sum(), 0.975), linestyle="none", marker="x", markersize=6,
+                          color=_style(i)["color"], transform=panel.get_xaxis_transform())
+    hover.mark(crosses, series.stepping, f"{series.path}: blew up", N=cases.N[lost], seconds=cases.seconds[lost])
 
 
 def table(study):
     """A row per series: what its finest run came to."""
-    labels = names.scheme_names(result.series.scheme for result in study.findings)
-    return markup.table(COLUMNS, "".join(_row(result, labels[result.series.scheme]) for result in study.findings),
-                        f"{study.title}: what each way to step came to")
+    return tables.table(f"{study.title}: what each way to step came to", COLUMNS,
+                        [_row(result, label) for result, label in labeled(study) if len(result.series.cases)])
 
 
 def _row(result, label):
     series, cases = result.series, result.series.cases
-    if not len(cases):
-        return ""
     beyond = np.flatnonzero(cases.bound_first_step > 0)
     lost = np.flatnonzero(np.isfinite(cases.last_time))
     bound = f"{np.max(cases.bound_largest):.3g}" if np.max(cases.bound_largest) > 0 else "–"
-    where = "–"
+    where = given_up = "–"
     if len(beyond):
         i = beyond[-1]
-        where = (f"step {cases.bound_first_step[i]:.0f}, <var>t</var> = {cases.bound_first_time[i]:.3g}, "
-                 f"<var>x</var> = {cases.bound_first_place[i]:.4g}")
-    given_up = "–"
+        where = Markup("step {:.0f}, <var>t</var> = {:.3g}, <var>x</var> = {:.4g}").format(
+            cases.bound_first_step[i], cases.bound_first_time[i], cases.bound_first_place[i])
     if len(lost):
         i = lost[-1]
-        given_up = (f"step {cases.last_step[i]:.0f} of <var>N</var> = {cases.N[i]}, <var>t</var> = "
-                    f"{cases.last_time[i]:.3g}, <var>x</var> = {cases.last_place[i]:.4g}")
-    number = '<td class="number">{}</td>'.format
-    return (f'<tr{markup.departs(result)}><th scope="row">{escape(label)}</th><td>{escape(series.path)}</td>'
-            f'<td class="said">{escape(series.stepping)}</td><td>{_came_to_be(result)}</td>'
-            f"<td>{markup.expected(result)}</td>{number(cases.N[-1])}{number(markup.error(cases.error_linf[-1]))}"
-            f"{number(markup.seconds(cases.seconds[-1]))}{number(markup.count(cases.steps[-1]))}{number(bound)}"
-            f'<td class="said">{where}</td><td class="said">{given_up}</td></tr>\n')
+        given_up = Markup("step {:.0f} of <var>N</var> = {}, <var>t</var> = {:.3g}, <var>x</var> = {:.4g}").format(
+            cases.last_step[i], cases.N[i], cases.last_time[i], cases.last_place[i])
+    return tables.Row((label, series.path, series.stepping, _came_to_be(result), markup.expected(result),
+                       f"{cases.N[-1]}", markup.error(cases.error_linf[-1]), markup.seconds(cases.seconds[-1]),
+                       markup.count(cases.steps[-1]), bound, where, given_up), not result.as_expected)
 
 
 def _came_to_be(result):
     """The verdict; where nothing but stability was asked for, that it is stable."""
     if result.expected == "stable" and result.as_expected:
-        return '<span class="badge good">stable</span>'
+        return markup.tag("stable", "good")
     return markup.badge(result, result.expected == "unstable")
 
 
-def _summary_row(study):
-    blown_up = sum(result.verdict == "unstable" for result in study.findings)
-    return (f'{row_head(study)}<td class="number">{len(study.findings)}</td><td class="number">{blown_up}</td>'
-            f"<td>{departing_text(study)}</td></tr>\n")
-
-
 def _section(study, drawings, entries):
-    figures = "".join(map(markup.figure, drawings))
-    every = "".join(article(result, label) for result, label in labeled(study))
-    return f"{figures}{table(study)}<details><summary>Every series</summary>\n{every}</details>\n"
+    departing = sum(not result.as_expected for result in study.findings)
+    every = tables.fold(Markup('Every series <span class="note">{}</span>').format(len(study.findings)),
+                        series_table(study), kind="findings")
+    return markup.joined((markup.outcome({"series": departing}, {"series": len(study.findings)}),
+                          *map(figures.figure, drawings), table(study), every, cases_fold(study)))
 
 
-KIND = Kind(drawings, _section, Summary("series", "<p>Run with several integrators and steps:</p>\n",
-                                        ("study", "", "series", "blow up", "as expected"),
-                                        "Studies run with several integrators and steps", _summary_row))
+KIND = Kind(drawings, _section, noun="series")

@@ -1,43 +1,17 @@
-"""The page of claims: what each statement of the paper says, and what was measured of it."""
+"""Claim by claim: what each statement of theory says, and what was measured of it."""
 
-from html import escape
+from markupsafe import Markup
 
 from kinds import registry
 from reading import ledger
 from writing import markup, tables
 
-TITLE = "Asymptotic compatibility: claim by claim"
-ABOUT = """Every statement of the theory in the order of the paper, with all that was measured of it and the worst of
-it. The verdict is that of the worst. A statement that is <em>not so as printed</em> is expected to fail somewhere, and
-a remark with its findings says why and what holds instead. A negative control is a case in which the statement must
-fail, because one of its assumptions does, or in which an error must settle; it shows that the measurement would see a
-failure, and counts as no evidence for the statement."""
-
-COLUMNS = ("statement", "what it says", "measured on", "worst observed", "verdict", "as expected", "figures")
-
-
-def html(studies, drawings):
-    """The page as text. `drawings`: {name of a study: its drawings}."""
-    of_paper, further = statements(studies)
-    every = [entry for statement in (*of_paper, *further) for entry in statement.entries]
-    checked = [study for study in studies if registry.of(study).held_to and study.findings]
-    controls = [finding for study in checked for finding in study.findings]
-    body = [markup.outcome({"results": sum(not result.as_expected for result in (*every, *controls))},
-                           {"results": len(every) + len(controls)})]
-    for heading, group in (("Statements of the paper", of_paper), ("Further findings", further)):
-        if group:
-            rows = "".join(_row(statement, drawings) for statement in group)
-            body.append(f"<section>\n<h2>{heading}</h2>\n{markup.table(COLUMNS, rows, heading)}</section>\n")
-    if checked:
-        body.append(f"<section>\n<h2>What the measurement itself is held to</h2>\n{''.join(map(_held_to, checked))}"
-                    "</section>\n")
-    if every:
-        body.append('<section>\n<h2>Every finding</h2>\n')
-        body += [_every(statement) for statement in (*of_paper, *further)]
-        body.append("</section>\n")
-    links = [("index.html", "all studies")]
-    links += [(f"#{_anchor(statement)}", statement.name) for statement in of_paper]
-    return markup.document(TITLE, ABOUT, links, "".join(body))
+COLUMNS = ("~statement", "~what it says", "~measured on", "~worst observed", "verdict", "as expected", "~where")
+ABOUT = Markup("""<p>The verdict of a statement is that of the worst that was measured of it. One that is <em>not so as
+printed</em> is expected to fail somewhere; a remark with its findings says why and what holds instead. A negative
+control is a case in which the statement must fail, because one of its assumptions does, or in which an error must
+settle: it shows that the measurement would see a failure, and counts as no evidence.</p>
+""")
 
 
 def statements(studies):
@@ -46,59 +20,55 @@ def statements(studies):
                              for entry in registry.entries(study))
 
 
-def _held_to(study):
-    return f'<p><a href="index.html#{study.name}">{escape(study.title)}</a>: {registry.of(study).held_to(study)}</p>\n'
+def table(statements, drawings, label):
+    """A row per statement. `drawings`: {name of a study: its drawings}."""
+    return markup.joined((ABOUT, tables.table(label, COLUMNS, [_row(one, drawings) for one in statements])))
 
 
 def _row(statement, drawings):
     worst = statement.worst
+    verdict = markup.badge(worst, worst.control)
+    if statement.refuted and not statement.departing:
+        verdict = markup.tag("not so as printed", "near")
+    said = "all"
+    if statement.departing:
+        said = Markup("<strong>{} of {} not</strong>").format(len(statement.departing), len(statement.entries))
+    return tables.Row((statement.name, markup.joined(statement.claims, markup.BAR), _measured(statement),
+                       tables.worst_observed(statement), verdict, said, _where(statement, drawings)),
+                      bool(statement.departing))
+
+
+def _measured(statement):
+    """On how much, and what of it is no plain evidence; with the remarks of its findings."""
     subjects = len({entry.subject for entry in statement.tested})
     checks = len({entry.check for entry in statement.tested})
-    counts = [markup.several(len(statement.tested), "finding"), markup.several(subjects, "subject"), markup.several(checks, "condition")]
-    measured = ", ".join(counts) if statement.tested else ""
+    lines = [", ".join((markup.several(len(statement.tested), "finding"), markup.several(subjects, "subject"),
+                        markup.several(checks, "condition")))] if statement.tested else []
     if statement.controls:
         caught = sum(entry.as_expected for entry in statement.controls)
-        measured += (f'<br><span class="note">negative controls: {caught} of {len(statement.controls)} fail or '
-                     "settle as they must</span>")
-    verdict = markup.badge(worst, worst.control)
+        lines.append(markup.note(f"negative controls: {caught} of {len(statement.controls)} fail or settle as they must"))
     if statement.unsharp:
-        measured += (f'<br><span class="note">{markup.several(len(statement.unsharp), "finding")} more: a bound is not '
-                     "attained</span>")
+        lines.append(markup.note(f"{markup.several(len(statement.unsharp), 'finding')} more: a bound is not attained"))
     if statement.refuted and not statement.departing:
-        verdict = '<span class="badge bad">not so as printed</span>'
-        measured += (f'<br><span class="note">{len(statement.refuted)} of {len(statement.tested)} show that it does not '
-                     "hold as printed</span>")
-    if statement.departing:
-        said = f"<strong>{len(statement.departing)} of {len(statement.entries)} not</strong>"
-    else:
-        said = "all"
-    claims = "<br>".join(escape(claim) for claim in statement.claims)
-    return (f'<tr{markup.departs_if(statement.departing)}>'
-            f'<th scope="row"><a href="#{_anchor(statement)}">{escape(statement.name)}</a></th>'
-            f'<td class="said">{claims}</td><td class="said">{measured}</td><td class="said">{tables.worst_observed(statement)}</td>'
-            f"<td>{verdict}</td><td>{said}</td><td>{_figures(statement, drawings)}</td></tr>\n")
+        lines.append(markup.note(f"{len(statement.refuted)} of {len(statement.tested)} show that it does not hold as "
+                                 "printed"))
+    remarks = dict.fromkeys(entry.remark for entry in statement.entries if entry.remark)
+    if remarks:
+        lines.append(tables.fold(markup.several(len(remarks), "remark"),
+                                 markup.joined(Markup("<p>{}</p>").format(remark) for remark in remarks)))
+    return markup.joined(lines, markup.BAR)
 
 
-def _figures(statement, drawings):
-    links = {}
+def _where(statement, drawings):
+    """Links to the studies that measured it, whose tables the script shows of this statement alone, and to figures."""
+    lines = []
     for study in dict.fromkeys(entry.study.name for entry in statement.entries):
         of_study = drawings.get(study, [])
-        shown = [drawing for drawing in of_study if statement.name in drawing.statements]
-        for drawing in shown or [drawing for drawing in of_study if not drawing.statements][:1]:
-            links[drawing.stem] = f'<a href="index.html#{escape(drawing.stem)}.figure">{escape(drawing.stem)}</a>'
-        if not of_study:
-            links[study] = f'<a href="index.html#{study}">{study}</a>'
-    return "<br>".join(links.values())
-
-
-def _every(statement):
-    remarks = dict.fromkeys(entry.remark for entry in statement.entries if entry.remark)
-    notes = "".join(f"<p>{escape(remark)}</p>\n" for remark in remarks)
-    opened = " open" if statement.departing else ""
-    return (f'<details id="{_anchor(statement)}"{opened}><summary>{escape(statement.name)} '
-            f'<span class="note">{markup.several(len(statement.entries), "finding")}</span></summary>\n'
-            f"{notes}{tables.entry_table(statement.entries, statement.name)}</details>\n")
-
-
-def _anchor(statement):
-    return "claim-" + "".join(c if c.isalnum() else "-" for c in statement.name).strip("-")
+        shown = [one for one in of_study if statement.name in one.statements]
+        count = sum(entry.study.name == study for entry in statement.entries)
+        links = [Markup('<a href="#{}" data-find="{}">{}</a>').format(
+            study, statement.name, f"{study}: {markup.several(count, 'finding')}")]
+        links += [markup.link(f"{one.stem}.figure", "figure")
+                  for one in shown or [one for one in of_study if not one.statements][:1]]
+        lines.append(markup.joined(links, ", "))
+    return markup.joined(lines, markup.BAR)

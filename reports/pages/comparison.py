@@ -1,15 +1,16 @@
 """What else computes the same cases, and in how much time: a part of the page."""
 
 from dataclasses import dataclass
-from html import escape
 import json
 
-from writing import markup
+from markupsafe import Markup
+
+from writing import markup, tables
 from reading.results import ResultError
 
 FILE = "compare/compare.json"   # in the folder of the results
-ABSENT = ("<p><code>make compare</code> runs the same cases in NumPy, Octave and PySPH and shows here how their run "
-          "times compare.</p>\n")
+ABSENT = Markup("<p><code>make compare</code> runs the same cases in NumPy, Octave and PySPH and shows here how their run "
+                "times compare.</p>\n")
 
 
 @dataclass(frozen=True)
@@ -52,28 +53,8 @@ def _text(found):
 
 def section(comparison):
     """The part of the page about a comparison; a line that says where it comes from if there is None."""
-    heading = '<section aria-labelledby="comparison">\n<h2 id="comparison">Other programs on the same cases</h2>\n'
     if comparison is None:
-        return f"{heading}{ABSENT}</section>\n"
-    if comparison.wrong:
-        lines = "".join(f"<li>{escape(line)}</li>" for line in comparison.wrong)
-        said = (f'<p class="outcome bad">{len(comparison.wrong)} errors are not those of acstudy, so that run times '
-                f"mean nothing.</p>\n<ul>{lines}</ul>\n")
-    else:
-        said = (f'<p class="outcome good">All programs have the same errors, to 1e-9, in those of '
-                f"{comparison.cases} cases that they run.</p>\n"
-                "<p>Run times as multiples of those of acstudy on one thread: the median over the rounds of the ratio "
-                "within a round and, in brackets, the smallest and the largest. Cases that acstudy runs on the same "
-                "particles share their time.</p>\n")
-        said += "".join(_table(*table) for table in comparison.tables)
-    skipped = "".join(f"<li>{escape(label)}: {escape(why)}</li>" for label, why in comparison.skipped)
-    skipped = f"<p>Skipped:</p>\n<ul>{skipped}</ul>\n" if skipped else ""
-    origin = (f'<p class="note">{comparison.rounds} rounds, one program after the other, on '
-              f"{escape(comparison.machine)}: <code>{escape(comparison.command)}</code></p>\n")
-    return f"{heading}{said}{skipped}{origin}</section>\n"
-
-
-def _table(title, columns, rows):
-    body = "".join(f'<tr><th scope="row">{escape(row[0])}</th>'
-                   + "".join(f'<td class="number">{escape(cell)}</td>' for cell in row[1:]) + "</tr>\n" for row in rows)
-    return markup.table([escape(column) for column in columns], body, title, numbers=True)
+        return ABSENT
+    found = [tables.table(title, [f"#{column}" if i else f"~{column}" for i, column in enumerate(columns)], rows)
+             for title, columns, rows in comparison.tables]
+    return markup.render("comparison.html", comparison=comparison, tables=found)

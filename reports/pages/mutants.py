@@ -1,15 +1,16 @@
 """Mistakes that were seeded in the sources to test the tests: what scripts/mutants.py found, as a part of the page."""
 
 from dataclasses import dataclass
-from html import escape
 import json
 
-from writing import markup
+from markupsafe import Markup
+
+from writing import markup, tables
 from reading.results import ResultError
 
 FILE = "mutants/mutants.json"   # in the folder of the results
-COLUMNS = ("mistake", "what it is", "file", "outcome", "caught by", "as expected")
-ABSENT = "<p><code>make mutants</code> plants mistakes in a copy of the sources and shows here what sees them.</p>\n"
+COLUMNS = ("~mistake", "~what it is", "~file", "outcome", "~caught by", "as expected")
+ABSENT = Markup("<p><code>make mutants</code> plants mistakes in a copy of the sources and shows here what sees them.</p>\n")
 
 
 @dataclass(frozen=True)
@@ -57,9 +58,8 @@ def _mutant(found):
 
 def section(mutants):
     """The part of the page about `mutants`; a line that says where they come from if there are None."""
-    heading = '<section aria-labelledby="seeded-mistakes">\n<h2 id="seeded-mistakes">Seeded mistakes</h2>\n'
     if mutants is None:
-        return f"{heading}{ABSENT}</section>\n"
+        return ABSENT
     mistakes = [mutant for mutant in mutants if not mutant.control]
     caught = sum(mutant.as_expected for mutant in mistakes)
     kind = "good" if all(mutant.as_expected for mutant in mutants) else "bad"
@@ -68,28 +68,24 @@ def section(mutants):
     if controls:
         survive = sum(mutant.as_expected for mutant in controls)
         said += f"; {survive} of {len(controls)} harmless changes survive, as they must"
-    rows = "".join(_row(mutant) for mutant in sorted(mutants, key=lambda mutant: mutant.as_expected))
-    return (f'{heading}<p class="outcome {kind}">{said}.</p>\n'
-            "<p>Each is a patch of the sources, planted alone; all tests and all gates are then run.</p>\n"
-            f"{markup.table(COLUMNS, rows, 'Seeded mistakes')}</section>\n")
+    rows = [_row(mutant) for mutant in sorted(mutants, key=lambda mutant: mutant.as_expected)]
+    return markup.render("mutants.html", kind=kind, said=said, table=tables.table("Seeded mistakes", COLUMNS, rows))
 
 
 def _row(mutant):
     badge = "bad" if not mutant.as_expected else "control" if mutant.control else "good"
-    name = escape(mutant.name) + (' <span class="note">control: must survive</span>' if mutant.control else "")
-    said = "yes" if mutant.as_expected else f"<strong>no</strong>, expected {escape(mutant.expected)}"
-    return (f'<tr{markup.departs(mutant)}><th scope="row">{name}</th><td class="said">{escape(mutant.what)}</td>'
-            f'<td>{escape(mutant.file)}</td><td><span class="badge {badge}">{escape(mutant.outcome)}</span></td>'
-            f'<td class="said">{_caught_by(mutant)}</td><td>{said}</td></tr>\n')
+    name = (Markup("{} {}").format(mutant.name, markup.note("control: must survive")) if mutant.control else
+            mutant.name)
+    return tables.Row((name, mutant.what, mutant.file, markup.tag(mutant.outcome, badge), _caught_by(mutant),
+                       markup.expected(mutant)), not mutant.as_expected)
 
 
 def _caught_by(mutant):
     if mutant.error:
-        return f"<details open><summary>output</summary><pre>{escape(mutant.error)}</pre></details>"
+        return tables.fold("output", Markup("<pre>{}</pre>").format(mutant.error), opened=True)
     if not mutant.caught_by:
         return "nothing"
     kinds = [kind for kind, _ in mutant.caught_by]
-    counts = ", ".join(f"{kinds.count(kind)} {kind}{'' if kinds.count(kind) == 1 else 's'}"
-                       for kind in dict.fromkeys(kinds))
-    names = "".join(f"<li>{escape(kind)}: {escape(name)}</li>" for kind, name in mutant.caught_by)
-    return f"<details><summary>{escape(counts)}</summary><ul>{names}</ul></details>"
+    counts = ", ".join(markup.several(kinds.count(kind), kind) for kind in dict.fromkeys(kinds))
+    return tables.fold(counts, Markup("<ul>{}</ul>").format(markup.joined(
+        Markup("<li>{}: {}</li>").format(kind, name) for kind, name in mutant.caught_by)))

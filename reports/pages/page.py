@@ -1,82 +1,113 @@
-"""The page of a report: what was claimed, what was observed, and everything needed to doubt it."""
+"""The page of a report: does everything hold, and then question by question what was claimed and what was observed."""
 
-from html import escape
+from dataclasses import dataclass
 
+from markupsafe import Markup
+
+from drawing import inlined, svg
 from kinds import registry
-from pages import bench as bench_page, comparison, mutants
-from writing import markup
+from pages import claims, comparison, explorer, headline, in_parts, mutants, paths, questions, run_time
+from pages.making import Drawn
+from pages.study import article, listing
+from pages.verdicts import departing, verdicts
+from writing import figures, markup, tables
 
 TITLE = "Asymptotic compatibility: convergence studies"
-ABOUT = """A nonlocal discretization has two lengths: the horizon <var>δ</var>, up to which particles interact, and
-the spacing <var>h</var> of the particles. It is <em>asymptotically compatible</em> (AC) when its solution converges to
-that of the local equation however <var>δ</var> and <var>h</var> shrink to zero, in whatever relation to each other,
-and to that of the nonlocal model when <var>h</var> alone does. Each series below refines one scheme along one path
-<var>δ</var>(<var>h</var>) and measures the max-norm error against a manufactured exact solution at the final time. The
-observed order is the order in the limit: that of a power law with a correction, fitted to the errors of all levels of
-the window, with its 95 % interval; with three levels it is that of a power law alone. Beside it stands the slope of a
-power law alone, which a correction bends. The verdict judges both against the order that theory gives."""
-
-TIMED = f'<p><a href="{bench_page.FILE}">Measured so that they can be compared</a>: each case alone, repeatedly, in turn.</p>\n'
-UNTIMED = "<p><code>make bench</code> measures them so that they can be compared: alone, repeatedly, in turn.</p>\n"
+ORIGIN = ("study", "~title", "kind", "#findings", "computed", "version")
 
 
-def html(studies, drawings, cost=(), seeded=None, compared=None, timed=False):
-    """The page as text.
+@dataclass(frozen=True)
+class Section:
+    """A question with everything that answers it."""
+    question: questions.Question
+    content: Markup
 
-    `drawings`: {name of a study: its drawings}; `cost`: the drawings of error against run time; `seeded`: mutants.read();
-    `compared`: comparison.read(); `timed`: there is a page of benches.
+
+def files(studies, drawn, benches=(), seeded=None, compared=None, parts=False, kept=None):
+    """{name: text of the page}. parts: a page for each question, else all in one.
+
+    `drawn`: making.Drawn; `seeded`: mutants.read(); `compared`: comparison.read(); `kept`: a reading.kept.Kept, or None.
     """
-    body = [_summary(studies)]
+    found = _contents(studies, drawn, benches, seeded, compared, kept)
+    return in_parts.files(found) if parts else {"index.html": str(markup.render("page.html", **found, parts=False))}
+
+
+def html(studies, drawings, benches=(), seeded=None, compared=None):
+    """The page in one as text. `drawings`: {name of a study: its drawings}."""
+    return files(studies, Drawn(drawings, [], []), benches, seeded, compared)["index.html"]
+
+
+def _contents(studies, drawn, benches, seeded, compared, kept):
+    """What the templates of the page name."""
+    found = questions.by_question(studies)
+    curves = run_time.curves(studies, benches)
+    top = headline.study_of(found)
+    # The headline figure stands on the first screen, and only there.
+    first = next(iter(drawn.studies.get(top.name, [])), None) if top else None
+    rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
+    inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
+    statements = claims.statements(studies)
+    sections = {question: _answers(question, found, rest, drawn.studies, statements, kept) for question in questions.ALL}
+    sections[questions.COMPATIBILITY] = paths.table(studies) + sections[questions.COMPATIBILITY]
+    if curves or compared:
+        sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, benches, drawn.benches, compared)
+    if seeded is not None:
+        heading = Markup('<h3 id="q.seeded-mistakes">Mistakes seeded in the sources</h3>\n')
+        sections[questions.MISTAKES] += heading + mutants.section(seeded)
+    bad = departing(studies)
+    nouns = _count(studies)
+    return dict(
+        title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(svg.faces(svg.letters(inline))),
+        script=markup.script(), verdicts=verdicts(found, curves, seeded, statements[0]), outcome=markup.outcome(
+            {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
+            {noun: len(group) for noun, group in nouns.items()}),
+        departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,
+        headline=figures.figure(first) if first else "", reading=headline.reading(top, bool(first and first.says)) if top else "",
+        in_numbers=headline.in_numbers(top) if top else "",
+        noticed=[headline.noticed(study) for study in found[questions.MISTAKES]],
+        sections=[Section(question, content) for question, content in sections.items() if content],
+        asked=[question for question, content in sections.items() if content],
+        cases=_cases(studies), origin=_origin(studies), seeded_absent=mutants.section(None) if seeded is None else "",
+        compared_absent=comparison.section(None) if compared is None and not sections[questions.RUN_TIME] else "")
+
+
+def _answers(question, found, rest, drawings, statements, kept):
+    """Statement by statement, and then the studies of a question."""
+    return markup.joined((*_statements(question, found, drawings, statements),
+                          *(article(study, rest.get(study.name, []), kept) for study in found[question])))
+
+
+def _statements(question, found, drawings, statements):
+    """The statements of the paper that belong to a question, and folded those of its studies that are of no paper."""
+    of_paper, further = statements
+    here = [one for one in of_paper if questions.of_statement(one) is question]
+    if here:
+        yield claims.table(here, drawings, question.title)
+    there = [one for one in further if one.entries[0].study in found[question]]
+    if there:
+        said = Markup("Statement by statement {}").format(markup.note(markup.several(len(there), "statement")))
+        yield tables.fold(said, claims.table(there, drawings, f"{question.title}: statements"))
+
+
+def _count(studies):
+    nouns = {}
     for study in studies:
-        shown = registry.of(study).section(study, drawings.get(study.name, []), registry.entries(study))
-        body.append(f"{_heading(study)}{shown}{_origin(study)}")
-    if cost:
-        body.append('<section aria-labelledby="run-time">\n<h2 id="run-time">Error against run time</h2>\n'
-                    f"{''.join(map(markup.figure, cost))}{TIMED if timed else UNTIMED}</section>\n")
-    body.append(comparison.section(compared))
-    body.append(mutants.section(seeded))
-    links = [("claims.html", "claim by claim")]
-    links += [(bench_page.FILE, "error against run time")] if timed else []
-    links += [(f"#{study.name}", study.name) for study in studies]
-    links += [("#run-time", "run time")] if cost else []
-    links.append(("#comparison", "other programs"))
-    links.append(("#seeded-mistakes", "seeded mistakes"))
-    return markup.document(TITLE, ABOUT, links, "".join(body))
+        nouns.setdefault(registry.of(study).noun, []).extend(study.findings)
+    return dict(sorted(nouns.items(), reverse=True))
 
 
-def _summary(studies):
-    """The first sentence, and a table for each way in which kinds of study are summed up."""
-    judged = {summary.noun: [] for summary in registry.SUMMARIES}
-    of = {summary: [] for summary in registry.SUMMARIES}
-    for study in studies:
-        summary = registry.of(study).summary
-        judged[summary.noun] += study.findings
-        of[summary].append(study)
-    said = markup.outcome({noun: sum(not one.as_expected for one in group) for noun, group in judged.items()},
-                          {noun: len(group) for noun, group in judged.items()})
-    parts = [f'<section aria-labelledby="summary">\n<h2 id="summary">Claims and verdicts</h2>\n{said}',
-             '<p><a href="claims.html">Claim by claim</a>: every statement of the paper with the worst that was '
-             "measured of it.</p>\n"]
-    for summary, group in of.items():
-        rows = "".join(map(summary.rows, group))
-        if rows:
-            parts.append(f"{summary.introduction}{markup.table(summary.columns, rows, summary.label)}")
-    return "".join(parts) + "</section>\n"
+def _cases(studies):
+    data = explorer.data(studies)
+    return markup.data(data) if data else ""
 
 
-def _heading(study):
-    return (f'<section aria-labelledby="{study.name}">\n<h2 id="{study.name}">{escape(study.title)} '
-            f'<span class="note">{study.name}</span></h2>\n')
-
-
-def _origin(study):
-    """What the study asked for and what made its numbers; ends its section."""
-    scene = {} if study.scene is None else {
-        "name": study.scene.name, "period": f"{study.scene.period:.10g}", "T": f"{study.scene.T:.10g}",
-        "advection velocity c": study.scene.c, "particle velocity b": study.scene.b or "none: particles stand still",
-        **({"exact solution u": study.scene.u} if study.scene.u else
-           {"initial values u0": study.scene.u0, "source f": study.scene.f or "0"}), "flow": study.scene.flow or "none given"}
-    text = f'<pre tabindex="0">{escape(study.text)}</pre>\n' if study.text else ""
-    asked = "Scene and study file" if scene else "Study file"
-    return (f"<details><summary>{asked}</summary>\n{markup.listing(scene)}{text}</details>\n"
-            f"<details><summary>Provenance</summary>\n{markup.listing(study.provenance)}</details>\n</section>\n")
+def _origin(studies):
+    """Where the numbers are from: what all studies have in common, and a row for each."""
+    if not studies:
+        return ""
+    common = {key: text for key, text in studies[0].provenance.items()
+              if all(study.provenance.get(key) == text for study in studies)}
+    rows = [(markup.link(study.name, study.name), study.title, study.kind, f"{len(study.findings)}",
+             study.provenance.get("created", "–"), study.provenance.get("version", "–")) for study in studies]
+    return markup.joined((tables.table("Where the numbers are from", ORIGIN, rows),
+                          tables.fold("What they have in common", listing(common)) if common else ""))

@@ -106,7 +106,7 @@ def entries(study, disputes=False):
 def _entry(study, finding, disputed):
     i, margin = closest(finding.points)
     unsharp = finding.promised == "diverges"
-    return Entry(study, finding, finding.statement, finding.claim, finding.subject, finding.check, measured(finding),
+    return Entry(study, finding, finding.statement, finding.claim, finding.subject, finding.check, measured(finding, i),
                  math.nan if finding.promised == "stable" else finding.observed_order,
                  margin if i is not None and finding.test == "bounds" else math.nan,
                  finding.verdict, " or ".join((finding.expected, *finding.also_expected)), finding.as_expected,
@@ -114,13 +114,13 @@ def _entry(study, finding, disputed):
                  finding.remark)
 
 
-def measured(finding):
-    """What was observed, in a few words."""
+def measured(finding, i=None):
+    """What was observed, in a few words. `i`: of closest(), if it is known."""
     if math.isfinite(finding.observed_order):
         return order_text(finding)
     if finding.series:
         return "no order"
-    i, _ = closest(finding.points)
+    i = closest(finding.points)[0] if i is None else i
     if i is None or finding.test != "bounds":
         return "–"
     points = finding.points

@@ -57,6 +57,11 @@ def literal(text):
     return text.replace("$", r"\$")
 
 
+def path_text(path):
+    """A path's name with its signs: "δ = h²"."""
+    return path.replace("delta", "δ").replace("^2", "²").replace("^3", "³").replace("sqrt(h)", "√h")
+
+
 def path_math(path):
     """A path's name as matplotlib sets it: as a formula if it is one in delta, h and N, else as it stands."""
     text = re.sub(r"(\d)\s*\*\s*(?=[a-zA-Z(])", r"\1", path)

@@ -61,6 +61,8 @@ class Cases:
     bound_first_step: Column = None    # first step beyond the bound; 0, NaN: none
     bound_first_time: Column = None
     bound_first_place: Column = None   # left end of the smallest gap then
+    error_l1: Column = None            # other norms of the error at T
+    error_l2: Column = None
     last_step: Column = None           # of a run that was given up: its last finite state
     last_time: Column = None           # NaN: the run went to its end
     last_place: Column = None          # position of the particle that gave it away
@@ -135,7 +137,7 @@ class Finding:
         return self.expected != self.promised or self.promised in ("violated", "stagnates")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)     # arrays have no hash and no truth
 class Study:
     """One result file."""
     file: Path

@@ -1,93 +1,95 @@
-"""Parts of the pages of a report, as HTML without scripts that reads nothing from a network."""
+"""Parts of a report's page: templates, badges, numbers. What is not Markup is escaped where it is set into a page."""
 
-from html import escape
+import json
 import math
 from pathlib import Path
-from urllib.parse import quote
 
-STYLE = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup, escape
+
+HERE = Path(__file__).parent
+SCRIPTS = ("state.js", "tables.js", "figures.js", "explorer.js", "main.js")
+STYLES = ("page.css", "figures.css", "media.css")
 
 # How a verdict is to be read; its badge also carries its name, so that color is never the only sign.
 KINDS = {"confirmed": "good", "holds": "good", "pre-asymptotic": "near", "floor": "fair", "inconclusive": "fair"}
+BAR = Markup("<br>")
+
+_templates = Environment(loader=FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True,
+                         lstrip_blocks=True, undefined=StrictUndefined)
 
 
-def document(title, introduction, links, body):
-    """A page as text. `links`: (address, name) of its navigation."""
-    navigation = "".join(f'<a href="{escape(address)}">{escape(name)}</a>' for address, name in links)
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>{escape(title)}</title>
-<style>
-{STYLE}</style>
-</head>
-<body>
-<header>
-<h1>{escape(title)}</h1>
-<p>{introduction}</p>
-<nav aria-label="Pages and parts">{navigation}</nav>
-</header>
-<main>
-{body}</main>
-</body>
-</html>
-"""
+def render(template, **context):
+    """A template of this folder with what it names."""
+    return Markup(_templates.get_template(template).render(context))
 
 
-def figure(drawing):
-    """A drawing.Drawing with its caption and its files."""
-    stem = quote(drawing.stem)
-    return (f'<figure id="{escape(drawing.stem)}.figure">\n'
-            f'<div class="card" tabindex="0"><img src="{stem}.svg" alt="{escape(drawing.alt)}"></div>\n'
-            f'<figcaption>{escape(drawing.caption)} <a href="{stem}.svg">SVG</a></figcaption>\n</figure>\n')
+def style(figures_in_dark=""):
+    """All rules of the page but the fonts of its figures; dark where the reader has chosen so, else where the system is,
+    and never on paper. figures_in_dark: declarations of the colors of figures."""
+    dark = (HERE / "dark.css").read_text(encoding="utf-8") + figures_in_dark
+    rules = "".join((HERE / name).read_text(encoding="utf-8") for name in STYLES)
+    return Markup(f"{rules}@media screen and (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{\n{dark}}} }}\n"
+                  f"@media screen {{ :root[data-theme=dark] {{\n{dark}}} }}\n")
 
 
-def table(columns, rows, label, numbers=False):
-    kind = ' class="number"' if numbers else ""
-    heads = "".join(f'<th scope="col"{kind}>{column}</th>' for column in columns)
-    return (f'<div class="scroll" role="region" tabindex="0" aria-label="{escape(label)}">\n<table>\n'
-            f"<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n</div>\n")
+def script():
+    """The page's script."""
+    return Markup("".join((HERE / "script" / name).read_text(encoding="utf-8") for name in SCRIPTS))
 
 
-def listing(entries):
-    return ("<dl>\n" + "".join(f"<dt>{escape(key)}</dt><dd>{escape(value)}</dd>\n" for key, value in entries.items())
-            + "</dl>\n")
+def data(value):
+    """Text of JSON that may stand in a script element."""
+    return Markup(json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"))
 
+
+def joined(parts, between=""):
+    """Parts one after another, `between` them."""
+    return Markup(between).join(parts)
+
+
+# ----------------------------------------------------------------------------------------------------------- verdicts
 
 def outcome(departing, what):
-    """The first sentence of a page: `departing` and `what` are {noun: number}."""
+    """What came out in a sentence: `departing` and `what` are {noun: number}."""
     total = " and ".join(f"{number} {noun}" for noun, number in what.items() if number)
     if not total:
-        return '<p class="outcome good">No series has been run.</p>\n'
-    if any(departing.values()):
+        kind, said = "good", "No series has been run"
+    elif any(departing.values()):
+        kind = "bad"
         said = " and ".join(f"{departing[noun]} of {number} {noun}" for noun, number in what.items() if number)
-        return f'<p class="outcome bad">{said} not as expected.</p>\n'
-    return f'<p class="outcome good">All {total} are as expected.</p>\n'
-
-
-def departs(result):
-    return departs_if(not result.as_expected)
-
-
-def departs_if(departing):
-    return ' class="departs"' if departing else ""
+        said += " not as expected"
+    else:
+        kind, said = "good", f"All {total} are as expected"
+    return Markup('<p class="outcome {}">{}.</p>\n').format(kind, said)
 
 
 def badge(result, control=None):
     """The verdict of a series or finding. A failure that its study expects (a negative control) is no alarm."""
     kind = KINDS.get(result.verdict, "control") if not control else "control"
-    return f'<span class="badge {kind if result.as_expected else "bad"}">{escape(result.verdict)}</span>'
+    return tag(result.verdict, kind if result.as_expected else "bad")
+
+
+def tag(text, kind):
+    return Markup('<span class="badge {}">{}</span>').format(kind, text)
 
 
 def expected(result):
-    return "yes" if result.as_expected else f"<strong>no</strong>, expected {escape(result.expected)}"
+    return "yes" if result.as_expected else Markup("<strong>no</strong>, expected {}").format(result.expected)
+
+
+def note(text):
+    """Text beside what counts more; nothing for none."""
+    return Markup('<span class="note">{}</span>').format(text) if text else ""
+
+
+def link(target, text):
+    """A link to a place of the page."""
+    return Markup('<a href="#{}">{}</a>').format(target, text)
 
 
 def variable(text):
-    return {"h": "<var>h</var>", "max(h,delta)": "max(<var>h</var>, <var>δ</var>)"}.get(text, escape(text))
+    return {"h": Markup("<var>h</var>"), "max(h,delta)": Markup("max(<var>h</var>, <var>δ</var>)")}.get(text, escape(text))
 
 
 # ------------------------------------------------------------------------------------------------------------ numbers
@@ -97,7 +99,7 @@ def value(number):
 
 
 def error(number):
-    return f"{number:.3e}" if math.isfinite(number) else f'<strong class="warning">{number}</strong>'
+    return f"{number:.3e}" if math.isfinite(number) else Markup('<strong class="warning">{}</strong>').format(number)
 
 
 def seconds(number):

@@ -1,14 +1,19 @@
-"""Series as text: each with all of its cases."""
+"""Series as tables: a row for what came out of each, and a row for each of their cases."""
 
-from html import escape
 import math
+
+import numpy as np
+from markupsafe import Markup
 
 from reading import names
 from writing import markup
+from writing.tables import Row, fold, table
 
-CASE_COLUMNS = ("<var>N</var>", "<var>h</var>", "<var>δ</var>", "Δ<var>t</var>", "steps", "max-norm error",
-                "pairwise order", "run time (s)", "fastest – slowest", "repeats", "pairs", "weight builds",
-                "quadrature points")
+SERIES = ("scheme", "~path", "~theory", "#observed order", "#by a power law alone", "verdict", "as expected",
+          Markup("#finest <var>N</var>"), "#error there", "#seconds there", "~reason")
+CASES = ("~series", Markup("#<var>N</var>"), Markup("#<var>h</var>"), Markup("#<var>δ</var>"), Markup("#Δ<var>t</var>"),
+         "#steps", "#max-norm error", "#pairwise order", "#run time (s)", "#pairs", "#weight builds",
+         "#quadrature points")
 
 
 def labeled(study):
@@ -17,23 +22,39 @@ def labeled(study):
     return [(result, labels[result.series.scheme]) for result in study.findings]
 
 
-def article(result, label):
-    """All of a series: theory and what was observed, how it was run, a row per case."""
-    series, cases, statement = result.series, result.series.cases, escape(result.series.theory_statement)
+def path_of(result):
+    """The path of a series, with its integrator and steps where the study has several."""
+    return "; ".join(filter(None, (result.series.path, result.series.stepping)))
+
+
+def interval(result):
+    """ "0.97 [0.95, 1.01]"."""
+    return (f"{names.order(result.observed_order)} [{names.order(result.observed_low)}, "
+            f"{names.order(result.observed_high)}]")
+
+
+def series_table(study):
+    """A row per series: what theory says, what was observed, what the finest case cost."""
     rows = []
-    for i in range(len(cases)):
-        cells = (f"{cases.N[i]}", markup.value(cases.h[i]), markup.value(cases.delta[i]), markup.value(cases.dt[i]),
-                 markup.count(cases.steps[i]), markup.error(cases.error_linf[i]),
-                 names.order(cases.pairwise[i - 1]) if i else "", markup.seconds(cases.seconds[i]),
-                 f"{markup.seconds(cases.seconds_low[i])} – {markup.seconds(cases.seconds_high[i])}",
-                 *map(markup.count, (cases.repeats[i], cases.work_pairs[i], cases.work_weight_builds[i],
-                                     cases.work_quadrature_points[i])))
-        rows.append("<tr>" + "".join(f'<td class="number">{cell}</td>' for cell in cells) + "</tr>\n")
-    observed = (f"order {names.order(result.observed_order)} "
-                f"[{names.order(result.observed_low)}, {names.order(result.observed_high)}]")
-    if math.isfinite(series.observed_fitted):
-        observed += f", by a power law alone {names.order(series.observed_fitted)}"
-    departs = "" if result.as_expected else f' <strong class="warning">expected {escape(result.expected)}</strong>'
+    for result, label in labeled(study):
+        cases = result.series.cases
+        finest = ((f"{cases.N[-1]}", markup.error(cases.error_linf[-1]), markup.seconds(cases.seconds[-1])) if len(cases)
+                  else ("–",) * 3)
+        rows.append(Row((label, path_of(result), _theory(result), interval(result),
+                         names.order(result.series.observed_fitted), markup.badge(result), markup.expected(result),
+                         *finest, Markup("{} {}").format(result.reason, markup.note(how_run(result.series)))),
+                        not result.as_expected))
+    return table(f"{study.title}: series", SERIES, rows)
+
+
+def _theory(result):
+    order = names.order(result.theory_order, "{:g}")
+    return Markup("{} in {} {}").format(order, markup.variable(result.variable_name),
+                                        markup.note(result.series.theory_statement))
+
+
+def how_run(series):
+    """How a series was run, in a line."""
     details = [f"{series.scheme.kernel} kernel", f"{series.source} source", series.integrator,
                f"step at most {series.step_text}"]
     if series.start != "uniform":
@@ -42,10 +63,28 @@ def article(result, label):
         details.insert(1, f"α = {series.scheme.alpha:.6g}")
     if series.scheme.mu is not None:
         details.append(f"μ = {series.scheme.mu:.6g}")
-    variable = markup.variable(result.variable_name)
-    theory = f"order {names.order(result.theory_order, '{:g}')} in {variable} ({statement})"
-    return (f"<article{markup.departs(result)}>\n"
-            f"<h3>{escape(label)}; {escape(series.path)} {markup.badge(result)}{departs}</h3>\n"
-            f'<p>Theory: {theory}. Observed: {observed}.</p>\n<p class="reason">{escape(result.reason)}</p>\n'
-            f'<p class="note">{escape(", ".join(details))}</p>\n'
-            f"{markup.table(CASE_COLUMNS, ''.join(rows), f'{label}; {series.path}', numbers=True)}</article>\n")
+    return ", ".join(details)
+
+
+def cases_fold(study):
+    """Every case of a study with its order to the coarser neighbor, its run time and its work, folded away."""
+    rows = [row for result, label in labeled(study) for row in _cases(result, label)]
+    if not rows:
+        return ""
+    said = Markup('Every case <span class="note">{}</span>').format(markup.several(len(rows), "case"))
+    return fold(said, table(f"{study.title}: cases", CASES, rows), kind="cases")
+
+
+def _cases(result, label):
+    cases = result.series.cases
+    for i in range(len(cases)):
+        spread = f"{markup.seconds(cases.seconds_low[i])} – {markup.seconds(cases.seconds_high[i])}"
+        timed = Markup("{} {}").format(markup.seconds(cases.seconds[i]),
+                                       markup.note(f"{spread}, {cases.repeats[i]} runs")
+                                       if cases.repeats[i] > 1 and np.isfinite(cases.seconds[i]) else "")
+        yield Row((f"{label}; {path_of(result)}", f"{cases.N[i]}", markup.value(cases.h[i]), markup.value(cases.delta[i]),
+                   markup.value(cases.dt[i]), markup.count(cases.steps[i]), markup.error(cases.error_linf[i]),
+                   names.order(cases.pairwise[i - 1]) if i else "", timed,
+                   *map(markup.count, (cases.work_pairs[i], cases.work_weight_builds[i],
+                                       cases.work_quadrature_points[i]))), not math.isfinite(cases.error_linf[i])
+                  and not result.as_expected)

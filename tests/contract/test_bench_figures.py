@@ -191,20 +191,19 @@ class Drawn(BenchFiles):
 
     def test_a_report_of_a_bench_alone_and_beside_studies(self):
         self.write_bench(*self.paths())
-        self.assertEqual(self.run_report(self.folder)[:2], (0, f"{self.folder / 'bench.html'}\n"))
-        page = (self.folder / "bench.html").read_text(encoding="utf-8")
-        self.assertIn("a &lt;machine&gt;", page)
-        self.assertNotIn("index.html", page)
-        write(self.folder, "fig", series())
-        self.assertEqual(self.run_report(self.folder)[:2], (0, f"{self.folder / 'index.html'}\n"))
-        self.assertIn('href="bench.html"', (self.folder / "index.html").read_text(encoding="utf-8"))
-        self.assertIn('href="index.html"', (self.folder / "bench.html").read_text(encoding="utf-8"))
+        for alone in (True, False):
+            self.assertEqual(self.run_report(self.folder)[:2], (0, f"{self.folder / 'index.html'}\n"))
+            page = (self.folder / "index.html").read_text(encoding="utf-8")
+            for text in ("a &lt;machine&gt;", 'id="bench.seconds.figure"', "Seconds to reach an error", "Prices of work",
+                         "Where the time goes"):
+                self.assertIn(text, page)
+            self.assertEqual("<article" in page, not alone)
+            write(self.folder, "fig", series())
 
     def test_without_a_bench_the_page_says_what_makes_one(self):
         write(self.folder, "fig", series())
         self.assertEqual(self.run_report(self.folder)[0], 0)
         self.assertIn("make bench", (self.folder / "index.html").read_text(encoding="utf-8"))
-        self.assertFalse((self.folder / "bench.html").exists())
 
     def test_a_damaged_bench_stops_with_4_and_one_line(self):
         file = self.write_bench(*self.paths())

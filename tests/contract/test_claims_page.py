@@ -1,7 +1,8 @@
-"""The page of claims, and findings on the first page: every statement in its place, nothing that departs hidden."""
+"""Claim by claim, and findings in the page: every statement in its place, nothing that departs hidden."""
 
 import json
 import math
+import re
 import subprocess
 import sys
 import unittest
@@ -9,7 +10,7 @@ import unittest
 import h5py
 import numpy as np
 
-from tests.result_files import ROOT, ReportTest, finding, series, write
+from tests.result_files import ROOT, ReportTest, finding, of_study, series, write
 
 from pages import claims, page
 from reading import ledger, results
@@ -138,14 +139,14 @@ class Extremes(ReportTest):
             finding(subject="wrong", value=[2.0] * 4, verdict="violated", expected="violated", alarm=1, **self.ROW),
             finding(subject="other", statement="N = 3 to 9", claim="order 1", value=[0.8, 0.4, 0.2, 0.1]))
         self.assertEqual(table.count("<tr"), 3)
-        self.assertIn('rowspan="2"><a href="#ledger.N---3-to-9">N = 3 to 9</a>', table)
+        self.assertEqual(table.count('<a href="#ledger.N---3-to-9">N = 3 to 9</a>'), 2)
         self.assertIn("norms are &lt;1&gt;", table)
         self.assertIn("0.9 ≤ 1<br>", table)
         self.assertNotIn("0.4 ≤ 1", table)
         self.assertIn("2 findings on 2 subjects", table)
         self.assertIn("<td>1 of 1 fail</td><td>all</td>", table)
         self.assertIn("0.1 at N = 1280", table)
-        self.assertIn('<details id="ledger.N---3-to-9"><summary>', html)
+        self.assertIn('<details id="ledger.N---3-to-9" class="findings"><summary>', html)
         for subject in ("near", "far", "wrong", "other"):
             self.assertIn(f'<th scope="row">{subject}</th>', html)
 
@@ -156,41 +157,40 @@ class Extremes(ReportTest):
         self.assertIn('<tr class="departs">', table)
         self.assertIn('<span class="badge bad">violated</span>', table)
         self.assertIn("<td>0 of 1 fail</td><td><strong>2 of 2 not</strong></td>", table)
-        self.assertIn('<details id="ledger.N---3-to-9" open>', html)
+        self.assertIn('<details id="ledger.N---3-to-9" class="findings" open>', html)
 
 
 class Pages(ReportTest):
     def html(self, *studies):
-        return claims.html(studies, {})
+        return page.html(studies, {})
 
-    def test_a_departure_stands_out_on_both_pages(self):
+    def test_a_departure_stands_out(self):
         bad = finding(verdict="below", as_expected=0, alarm=1, reason="pairwise orders <0.5>", observed_order=0.5,
                       observed_low=0.4, observed_high=0.6)
         study = read(self.folder, kind="consistency", findings=[finding(check="moved, delta = 4h"), bad])
         html = self.html(study)
-        self.assertIn("1 of 2 results not as expected", html)
+        self.assertIn("1 of 2 findings not as expected", html)
         self.assertIn("<strong>1 of 2 not</strong>", html)
-        self.assertIn('<tr class="departs"><th scope="row"><a href="#claim-Lemma-2-5">', html)
-        self.assertIn('<details id="claim-Lemma-2-5" open>', html)
+        self.assertIn('<tr class="departs"><th scope="row" class="said">Lemma 2.5</th>', html)
         self.assertIn('<span class="badge bad">below</span>', html)
         self.assertIn("pairwise orders &lt;0.5&gt;", html)
         self.assertIn("lowest order 0.50 [0.40, 0.60]", html)
         self.assertIn("highest order 0.98", html)
-        index = page.html([study], {})
-        self.assertIn("1 of 2 findings not as expected", index)
-        self.assertLess(index.index("pairwise orders &lt;0.5&gt;"), index.index("<summary>Every finding"))
+        self.assertLess(html.index("pairwise orders &lt;0.5&gt;"), html.index('class="verdicts"'))   # in full, on top
+        study = of_study(html, "ledger")
+        self.assertLess(study.index("pairwise orders &lt;0.5&gt;"), study.index("<summary>Every finding"))
 
     def test_a_statement_that_is_refuted_does_not_pass_for_one_that_holds(self):
         refuted = finding(verdict="violated", promised="holds", expected="violated", alarm=1, test="bounds",
                           value=[2] * 4, upper=1.0, check="uneven")
         html = self.html(read(self.folder, kind="stability", findings=[finding(verdict="holds"), refuted]))
-        self.assertIn("All 2 results are as expected", html)
-        self.assertIn('<span class="badge bad">not so as printed</span>', html)
+        self.assertIn("All 2 findings are as expected", html)
+        self.assertIn('<span class="badge near">not so as printed</span>', html)
         self.assertIn("1 of 2 show that it does not hold as printed", html)
         self.assertNotIn("negative controls", html)
         departing = refuted | dict(verdict="holds", as_expected=0, alarm=0)
         html = self.html(read(self.folder, kind="stability", findings=[finding(verdict="holds"), departing]))
-        self.assertNotIn('<span class="badge bad">not so as printed</span>', html)
+        self.assertNotIn('<span class="badge near">not so as printed</span>', html)
         self.assertIn('class="departs"', html)
 
     def test_a_bound_that_is_not_attained_is_no_failure_of_its_statement(self):
@@ -204,7 +204,7 @@ class Pages(ReportTest):
                          value=[2] * 4, upper=1.0)
         missed = caught | dict(verdict="holds", as_expected=0, alarm=1, check="moved")
         html = self.html(read(self.folder, kind="stability", findings=[finding(), caught]))
-        self.assertIn("All 2 results are as expected", html)
+        self.assertIn("All 2 findings are as expected", html)
         self.assertIn("negative controls: 1 of 1 fail or settle as they must", html)
         self.assertIn('<span class="badge control">violated</span>', html)
         self.assertNotIn('class="departs"', html)
@@ -212,21 +212,32 @@ class Pages(ReportTest):
         self.assertIn("negative controls: 1 of 2 fail or settle as they must", html)
         self.assertIn('<span class="badge bad">holds</span>', html)
 
-    def test_pages_link_to_each_other_and_to_figures_that_exist(self):
+    def test_a_statement_links_to_figures_and_studies_that_exist(self):
         write(self.folder, "fig2", series())
         write(self.folder, "consistency", kind="consistency", findings=[finding()])
         self.assertEqual(self.run_report(self.folder)[0], 0)
-        index, html = ((self.folder / name).read_text(encoding="utf-8") for name in ("index.html", "claims.html"))
-        self.assertIn('href="claims.html"', index)
-        self.assertIn('href="index.html"', html)
-        self.assertIn('href="index.html#consistency.lemma-2-5.figure"', html)
-        self.assertIn('id="consistency.lemma-2-5.figure"', index)
-        self.assertIn('href="index.html#fig2.figure"', html)
-        self.assertIn("All 1 series and 1 findings are as expected", index)
-        self.assertTrue((self.folder / "consistency.lemma-2-5.svg").is_file())
-        self.assertEqual((self.folder / "consistency.png").exists(), False)
-        for text in (index, html):
-            self.assertNotIn("<script", text)
+        html = (self.folder / "index.html").read_text(encoding="utf-8")
+        for place in ("consistency.lemma-2-5.figure", "fig2.figure", "consistency", "fig2"):
+            self.assertIn(f'<a href="#{place}"', html)
+            self.assertEqual(html.count(f' id="{place}"'), 1)
+        self.assertIn('data-find="Lemma 2.5">consistency: 1 finding</a>', html)
+        self.assertIn("All 1 series and 1 findings are as expected", html)
+
+    def test_no_two_places_have_one_name(self):
+        for name in ("stability", "figures", "main", "explorer"):
+            write(self.folder, name, kind="stability", findings=[finding(test="bounds", upper=1.0)])
+        self.assertEqual(self.run_report(self.folder)[0], 0)
+        places = re.findall(r' id="([^"]+)"', (self.folder / "index.html").read_text(encoding="utf-8"))
+        self.assertEqual(len(places), len(set(places)))
+
+    def test_a_wide_interval_says_what_it_is_worth(self):
+        wide = finding(test="rate", verdict="holds", promised="holds", expected="holds", observed_order=0.91,
+                       observed_low=0.09, observed_high=1.71)
+        narrow = wide | dict(observed_low=0.8, observed_high=1.1, check="moved")
+        html = self.html(read(self.folder, kind="consistency", findings=[wide]))
+        self.assertIn("such an interval alone would say little", html)
+        html = self.html(read(self.folder, kind="consistency", findings=[narrow]))
+        self.assertNotIn("such an interval alone would say little", html)
 
     def test_synthetic_series_are_listed_with_right_and_given_verdict(self):
         right = finding(statement="corpus", subject="drift", claim="it <drifts>", verdict="below", expected="below",
@@ -236,8 +247,8 @@ class Pages(ReportTest):
         index = page.html([study], {})
         self.assertIn("<td>below or inconclusive</td>", index)
         self.assertIn("it &lt;drifts&gt;", index)
-        self.assertEqual(index.count('<tr class="departs"><th scope="row">noise</th>'), 1)
-        self.assertIn("1 of 2 synthetic series of known order get the right verdict", self.html(study))
+        self.assertEqual(of_study(index, "corpus").count('<tr class="departs"><th scope="row">noise</th>'), 1)
+        self.assertIn("1 of 2 findings not as expected; 1 of 2 synthetic series of known order get the right verdict", index)
 
 
 class Table(ReportTest):

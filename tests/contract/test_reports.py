@@ -5,6 +5,7 @@ import math
 import multiprocessing
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import sys
@@ -17,7 +18,7 @@ from xml.etree import ElementTree
 import h5py
 import numpy as np
 
-from tests.result_files import ROOT, ReportTest, series, write
+from tests.result_files import ROOT, ReportTest, finding, of_study, series, write
 
 from drawing import axes, look, svg
 from kinds import convergence, registry, run_times
@@ -97,14 +98,44 @@ class Page(ReportTest):
         for one in all_series:
             self.assertIn(f'>{one["verdict"]}</span>', html)
             self.assertIn(f'reason &lt;{one["verdict"]}&gt;', html)
-            self.assertEqual(html.count(f'<td>{one["path"]}</td>'), 1)
+            self.assertEqual(of_study(html, "fig1").count(f'<td class="said">{one["path"]}</td>'), 1)
         self.assertIn("&lt;script&gt;alert(1)&lt;/script&gt; &amp; $x$", html)
-        self.assertIn("title = &quot;&lt;b&gt;&quot;", html)
-        self.assertNotIn("<script", html)
-        for name in ("fig1.svg",):
+        self.assertIn("title = &#34;&lt;b&gt;&#34;", html)
+        self.assertNotIn("<script>alert", html)
+        for name in ("fig1", "cost.lee-du-2019"):
+            self.assertEqual(html.count(f'<figure id="{name}.figure"'), 1)
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), [".report", "fig1.h5", "index.html"])
+
+    def test_nothing_is_read_from_elsewhere(self):
+        write(self.folder, "fig1", series())
+        self.assertEqual(self.run_report(self.folder)[0], 0)
+        html = (self.folder / "index.html").read_text(encoding="utf-8")
+        for address in re.findall(r'(?:src|href|action)="([^"]*)"|url\(([^)]*)\)|@import', html):
+            self.assertRegex("".join(address), r"^(#|data:)")
+
+    def test_figures_become_files_of_the_formats_that_are_asked_for(self):
+        write(self.folder, "fig1", series())
+        to = self.folder / "figures"
+        self.assertEqual(self.run_report(self.folder, "--figures", to, "--format", "svg,png")[0], 0)
+        self.assertEqual(sorted(file.name for file in to.iterdir()),
+                         ["cost.lee-du-2019.png", "cost.lee-du-2019.svg", "fig1.png", "fig1.svg"])
+        self.assertEqual(self.run_report(self.folder, "--figures", to, "--format", "gif")[0], 2)
+        self.assertEqual(self.run_report(self.folder, "--format", "svg")[0], 2)
+
+    def test_parts_link_to_each_other_and_to_places_that_exist(self):
+        write(self.folder, "fig1", series())
+        write(self.folder, "ledger", kind="consistency", findings=[finding()])
+        self.assertEqual(self.run_report(self.folder, "--folder")[0], 0)
+        pages = {file.name: file.read_text(encoding="utf-8") for file in self.folder.glob("*.html")}
+        self.assertEqual(sorted(pages), ["compatibility.html", "figures.html", "index.html", "lemmas.html",
+                                         "run-time.html", "theorems.html"])
+        for name, text in pages.items():
+            for page_of, place in re.findall(r'<a href="([^"#]*)#([^"]*)"', text):
+                self.assertIn(f' id="{place}"', pages[page_of or name])
+        self.assertIn('<a href="lemmas.html#q.lemmas"', pages["figures.html"])
+        self.assertIn('<link rel="stylesheet" href="page.css">', pages["index.html"])
+        for name in ("page.css", "page.js"):
             self.assertTrue((self.folder / name).is_file())
-            self.assertIn(f'"{name}"', html)
-        self.assertEqual([file.name for file in self.folder.iterdir() if file.name.startswith(".")], [])
 
     def test_a_departing_series_is_marked(self):
         departing = series(path="delta = h^2", verdict="below", as_expected=0, observed_order=0.5)
@@ -112,8 +143,9 @@ class Page(ReportTest):
         study = results.read_study(write(self.folder, "fig1", series(), departing, control))
         html = page.html([study], {})
         self.assertIn("1 of 3 series not as expected", html)
-        self.assertEqual(html.count('<tr class="departs">'), 1)
-        self.assertEqual(html.count('<article class="departs">'), 1)
+        self.assertLess(html.index('<tr class="departs">'), html.index('class="verdicts"'))   # in full, on top
+        self.assertEqual(of_study(html, "fig1").count('<tr class="departs">'), 1)
+        self.assertIn('<td class="mark bad">', html)
         self.assertIn("<strong>no</strong>, expected confirmed", html)
         self.assertIn('<span class="badge bad">below</span>', html)
         self.assertIn('<span class="badge control">stagnates</span>', html)
@@ -155,7 +187,8 @@ class SeededMistakes(ReportTest):
         self.file.write_text(json.dumps({"mutants": found}), encoding="utf-8")
         code, _, err = self.run_report(self.folder)
         self.assertEqual((code, err), (0, ""))
-        return (self.folder / "index.html").read_text(encoding="utf-8").partition('id="seeded-mistakes"')[2]
+        return (self.folder / "index.html").read_text(encoding="utf-8").partition('id="q.seeded-mistakes"')[2].partition(
+            "<section")[0]
 
     def test_a_table_says_what_sees_each_mistake(self):
         html = self.section(mutant(), mutant(name="control-comment", **self.survivor))
@@ -231,8 +264,7 @@ class Figures(ReportTest):
         self.assertIn(">limit order 0.97 [0.95, 1.01], theory 1<", text)
         self.assertIn(">order 0.97 [0.95, 1.01], theory 1<", text)
         html = page.html([study], {})
-        self.assertIn("order 0.97 [0.95, 1.01], by a power law alone 0.91", html)
-        self.assertIn('<td class="number">0.91</td>', html)
+        self.assertIn('<td class="n">0.97 [0.95, 1.01]</td><td class="n">0.91</td>', html)
 
     def test_the_same_file_gives_the_same_bytes(self):
         path = write(self.folder, "fig1", series(), series(divergence="nonlocal"), series(path="delta = sqrt(h)"))

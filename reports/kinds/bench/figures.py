@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.frames import panel_frames
 from drawing.look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.styles import styles_of
@@ -76,7 +76,7 @@ def error_figure(curves, styles, cost):
     with typography():
         texts = bench_tables.labels(curves)
         legend = {text: styles[curve.scheme] for curve, text in sorted(zip(curves, texts), key=lambda pair: pair[1])}
-        panels = {}
+        panels, names_of = {}, dict(zip(curves, texts))
         for curve in curves:
             panels.setdefault(curve.path, []).append(curve)
         columns = 2
@@ -92,8 +92,9 @@ def error_figure(curves, styles, cost):
             for curve, (costs, errors) in zip(group, drawn):
                 style = styles[curve.scheme]
                 bars = _bars(curve.seconds, costs) if cost == "seconds" else None
-                panel.errorbar(costs, errors, xerr=bars, ecolor=style.color, **BARS,
-                               **style.line())
+                drawn_curve = panel.errorbar(costs, errors, xerr=bars, ecolor=style.color, **BARS, **style.line())
+                hover.mark(drawn_curve, names_of[curve], path, N=curve.N, h=curve.h, δ=curve.delta,
+                           seconds=curve.seconds.median, pairs=curve.pairs, **{"max-norm error": curve.error})
             axes.set_log_limits(panel, axes.padded(x), axes.padded(y), frame.inches)
             panel.minorticks_off()      # they would take half of the drawing time
             if frame.first:
@@ -102,7 +103,8 @@ def error_figure(curves, styles, cost):
                 panel.set_xlabel("seconds" if cost == "seconds" else "pair interactions")
             panel.tick_params(labelleft=frame.first, labelbottom=frame.last)
         keys = [Line2D([], [], **style.line()) for style in legend.values()] + [Line2D([], [], **EFFICIENT)]
-        foot_legend(figure, frames[0].left, keys, [*map(names.literal, legend), "efficient frontier"], columns)
+        key = foot_legend(figure, frames[0].left, keys, [*map(names.literal, legend), "efficient frontier"], columns)
+        hover.mark_legend(key, [*legend, None])
         return figure
 
 

@@ -1,14 +1,13 @@
 """The table of a stability map: sharp limits beside the bound that the lemma prints and what the rows need."""
 
-from html import escape
-
+from markupsafe import Markup
 import numpy as np
 
-from writing import markup
+from writing import markup, tables
 from kinds.stability_map.findings import NORM, SEARCH_END, SPECTRAL, lemma, lemma_suffices, of_kind, parts
 
-COLUMNS = ("scheme", "particles", "integrator", "printed bound", "rows' bound", "sharp limit, max norm",
-           "sharp limit, spectral radius", "verdict", "as expected")
+COLUMNS = ("scheme", "particles", "integrator", "~printed bound", "~rows' bound", "~sharp limit, max norm",
+           "~sharp limit, spectral radius", "verdict", "as expected")
 _NONE = f"none up to {SEARCH_END:g}"
 
 
@@ -21,9 +20,12 @@ def html(study):
             limits.setdefault((finding.subject, arrangement, integrator), {})[kind] = finding
     if not limits:
         return ""
-    rows = "".join(_row(key, found) for key, found in limits.items())
     exact = any(_exact(finding) for found in limits.values() for finding in found.values())
-    return _about(exact) + markup.table(COLUMNS, rows, f"{study.title}: sharp limits")
+    rows = [_row(key, found) for key, found in limits.items()]
+    departing = any(row.departs for row in rows)
+    said = Markup('Sharp limits <span class="note">{}: scheme, particles, integrator</span>').format(len(rows))
+    return tables.fold(said, markup.joined((_about(exact), tables.table(f"{study.title}: sharp limits", COLUMNS, rows))),
+                       departing, kind="findings")
 
 
 def _about(exact):
@@ -34,18 +36,15 @@ def _about(exact):
             f"implicit step has to stay below the pole of φ. The search ends at {SEARCH_END:g}.")
     if exact:
         said += " Exact: theory says that the rows' bound is the limit, and the bisection agrees to 1e−6."
-    return f"<p>{said}</p>\n"
+    return Markup(f"<p>{said}</p>\n")
 
 
 def _row(key, found):
-    subject, arrangement, integrator = key
     either = list(found.values())
     judged = next((one for one in either if not one.as_expected), either[0])
-    bounds = "".join(f"<td>{cell}</td>" for cell in (
-        _printed(found.get(NORM)), _rows_bound(either[0]), *(_limit(found.get(kind)) for kind in (NORM, SPECTRAL))))
-    return (f'<tr{markup.departs(judged)}><th scope="row">{escape(subject)}</th><td>{escape(arrangement)}</td>'
-            f"<td>{escape(integrator)}</td>{bounds}<td>{markup.badge(judged, judged.control)}</td>"
-            f"<td>{markup.expected(judged)}</td></tr>\n")
+    return tables.Row((*key, _printed(found.get(NORM)), _rows_bound(either[0]),
+                       *(_limit(found.get(kind)) for kind in (NORM, SPECTRAL)), markup.badge(judged, judged.control),
+                       markup.expected(judged)), not judged.as_expected)
 
 
 def _printed(finding):
@@ -53,8 +52,8 @@ def _printed(finding):
     if finding is None or finding.control:
         return "1"
     if lemma_suffices(finding):
-        return f'1 <span class="note">{escape(lemma(finding))} suffices</span>'
-    return f'1 <strong class="warning">{escape(lemma(finding))} does not suffice</strong>'
+        return Markup("1 {}").format(markup.note(f"{lemma(finding)} suffices"))
+    return Markup('1 <strong class="warning">{} does not suffice</strong>').format(lemma(finding))
 
 
 def _rows_bound(finding):
@@ -67,7 +66,7 @@ def _rows_bound(finding):
     if least <= 0:
         return "none promised"
     note = "exact" if _exact(finding) else "of the scheme that it is taken for" if finding.control else ""
-    return markup.value(least) + (f' <span class="note">{note}</span>' if note else "")
+    return Markup("{} {}").format(markup.value(least), markup.note(note)) if note else markup.value(least)
 
 
 def _exact(finding):
@@ -82,7 +81,7 @@ def _limit(finding):
         return "–"
     values = finding.points.value
     if np.isnan(values).any():
-        return '<strong class="warning">nan</strong>'
+        return Markup('<strong class="warning">nan</strong>')
     ends = [_said(value) for value in (values.min(), values.max())]
     return " – ".join(dict.fromkeys(ends))
 

@@ -115,7 +115,6 @@ def map_figure(study, planes):
                 _label_contours(panel, h, delta, error)
                 _paths(panel, h, delta)
                 axes.set_log_limits(panel, (h[0], h[-1]), (delta[0], delta[-1]), (width, tall))
-                panel.minorticks_off()      # they would take half of the drawing time
                 panel.tick_params(which="both", direction="out", labelleft=column == 0,
                                   labelbottom=row == len(targets) - 1)
                 panel.set_title(titles[scheme, target], fontsize=9, pad=4)

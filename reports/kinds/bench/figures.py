@@ -95,7 +95,6 @@ def error_figure(curves, styles, cost):
                 panel.errorbar(costs, errors, xerr=bars, ecolor=style.color, **BARS,
                                **style.line())
             axes.set_log_limits(panel, axes.padded(x), axes.padded(y), frame.inches)
-            panel.minorticks_off()      # they would take half of the drawing time
             if frame.first:
                 panel.set_ylabel("max-norm error at $T$")
             if frame.last:

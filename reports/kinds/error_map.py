@@ -165,12 +165,13 @@ def _label_contours(panel, h, delta, error):
 def _paths(panel, h, delta):
     panel.plot(*(grid.ravel() for grid in np.meshgrid(h, delta)), linestyle="none", marker=".", markersize=1.2,
                color="white", alpha=0.7)
-    x = np.geomspace(h[0], h[-1], 60)
+    x = np.geomspace(h[0], h[-1], 200)
     for _, horizon, dash in PATHS:
         y = horizon(x)
         inside = (y >= delta[0]) & (y <= delta[-1])
         if inside.any():
-            line, = panel.plot(x[inside], y[inside], color="black", linestyle=dash, linewidth=1.2)
+            ends = np.flatnonzero(inside)[[0, -1]]      # every path is straight on these axes
+            line, = panel.plot(x[ends], y[ends], color="black", linestyle=dash, linewidth=1.2)
             line.set_path_effects([Stroke(linewidth=2.6, foreground="white", alpha=0.75), Normal()])
 
 

@@ -59,7 +59,6 @@ def curves_figure(found, one_bound=False):
                     panel.plot(x, y, color=styles[finding.subject]["color"], linewidth=0.9,
                                linestyle=(2.5 * turn, (2.5, 2.5 * max(1, len(styles) - 1))))
                 axes.set_log_limits(panel, limits, bounds, (width, tall))
-                panel.minorticks_off()      # they would take half of the drawing time
                 axes.draw_references(panel, next(lines), (width, tall), GRAY)
                 panel.tick_params(which="both", top=True, right=True, labelleft=first)
                 panel.set_xlabel(variable_math(cell[0].variable_name), labelpad=1)

@@ -118,8 +118,7 @@ def _fix(axis, ticks, labels):
 
 def _inside(axis, places):
     low, high = sorted(axis.get_view_interval())
-    slack = 1e-9 * (high - low)
-    return np.array([place for place in places if low - slack <= place <= high + slack])
+    return np.array([place for place in places if low - 1e-9 * abs(low) <= place <= high + 1e-9 * abs(high)])
 
 
 def _within(axis):

@@ -115,7 +115,6 @@ def map_figure(study, planes):
                 _label_contours(panel, h, delta, error)
                 _paths(panel, h, delta)
                 axes.set_log_limits(panel, (h[0], h[-1]), (delta[0], delta[-1]), (width, tall))
-                panel.minorticks_off()      # they would take half of the drawing time
                 panel.tick_params(which="both", direction="out", labelleft=column == 0,
                                   labelbottom=row == len(targets) - 1)
                 panel.set_title(titles[scheme, target], fontsize=9, pad=4)
@@ -166,12 +165,13 @@ def _label_contours(panel, h, delta, error):
 def _paths(panel, h, delta):
     panel.plot(*(grid.ravel() for grid in np.meshgrid(h, delta)), linestyle="none", marker=".", markersize=1.2,
                color="white", alpha=0.7)
-    x = np.geomspace(h[0], h[-1], 60)
+    x = np.geomspace(h[0], h[-1], 200)
     for _, horizon, dash in PATHS:
         y = horizon(x)
         inside = (y >= delta[0]) & (y <= delta[-1])
         if inside.any():
-            line, = panel.plot(x[inside], y[inside], color="black", linestyle=dash, linewidth=1.2)
+            ends = np.flatnonzero(inside)[[0, -1]]      # every path is straight on these axes
+            line, = panel.plot(x[ends], y[ends], color="black", linestyle=dash, linewidth=1.2)
             line.set_path_effects([Stroke(linewidth=2.6, foreground="white", alpha=0.75), Normal()])
 
 

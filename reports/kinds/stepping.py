@@ -75,7 +75,6 @@ def run_time_figure(panels):
                 for result in panels[path, scheme]:
                     _draw(panel, result, ways.index(result.series.stepping))
                 axes.set_log_limits(panel, times, errors, (width, tall))
-                panel.minorticks_off()      # they would take half of the drawing time
                 last = i == len(paths) - 1
                 panel.tick_params(top=True, right=True, labelleft=k == 0, labelbottom=last)
                 if i == 0:

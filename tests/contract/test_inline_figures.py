@@ -69,6 +69,14 @@ class Inline(ReportTest):
         labels = [text for text in found.iter("text") if text.text in ("1", "2", "3")]
         self.assertEqual([text.get("x") for text in labels], ["72", "108", "144"])
 
+    def test_no_tick_stands_outside_of_its_panel(self):
+        def draw(panel):
+            panel.set(xscale="log", xlim=(1e-17, 0.1), yscale="symlog", ylim=(-10, 5))
+
+        for text in ElementTree.fromstring(drawn(draw=draw)).iter("text"):
+            first = text if text.get("x") else text[0]
+            self.assertTrue(0 < float(first.get("x")) < 190 and 0 < float(first.get("y")) < 144, text.attrib)
+
     def test_a_formula_reads_from_left_to_right_at_its_place(self):
         found = ElementTree.fromstring(drawn(draw=lambda panel: panel.text(1, 1, r"$\max(h,\,\delta)$", fontsize=10)))
         text = next(text for text in found.iter("text") if len(text))

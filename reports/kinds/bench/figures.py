@@ -96,7 +96,6 @@ def error_figure(curves, styles, cost):
                 hover.mark(drawn_curve, names_of[curve], path, N=curve.N, h=curve.h, δ=curve.delta,
                            seconds=curve.seconds.median, pairs=curve.pairs, **{"max-norm error": curve.error})
             axes.set_log_limits(panel, axes.padded(x), axes.padded(y), frame.inches)
-            panel.minorticks_off()      # they would take half of the drawing time
             if frame.first:
                 panel.set_ylabel("max-norm error at $T$")
             if frame.last:

@@ -116,7 +116,7 @@ def map_figure(found, study, allowed):
                     marked |= _draw_limits(panel, [one for one in limits if (one.subject, parts(one)) ==
                                                    (subject, parts(finding))])
                     axes.set_log_limits(panel, x_limits, y_limits, (width, tall))
-                    panel.minorticks_off()      # they would take half of the drawing time
+                    panel.minorticks_off()
                     below = any((subject, other) in planes for other in rows[i + 1:])
                     panel.tick_params(direction="out")
                     # The axes of all panels are the same: ticks at the outer ones are enough.

@@ -20,6 +20,7 @@ ORIGIN = ("study", "~title", "kind", "#findings", "computed", "version")
 class Section:
     """A question with everything that answers it."""
     question: questions.Question
+    said: str           # what came out, in a sentence
     content: Markup
 
 
@@ -54,18 +55,22 @@ def _contents(studies, drawn, benches, seeded, compared, kept):
     if seeded is not None:
         heading = Markup('<h3 id="q.seeded-mistakes">Mistakes seeded in the sources</h3>\n')
         sections[questions.MISTAKES] += heading + mutants.section(seeded)
+    answers = verdicts(found, curves, seeded, statements[0])
+    said = {one.question: one.said for one in answers}
     bad = departing(studies)
     nouns = _count(studies)
     return dict(
         title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(svg.faces(svg.letters(inline))),
-        script=markup.script(), verdicts=verdicts(found, curves, seeded, statements[0]), outcome=markup.outcome(
+        script=markup.script(), verdicts=answers, outcome=markup.outcome(
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
         departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,
-        headline=figures.figure(first) if first else "", reading=headline.reading(top, bool(first and first.says)) if top else "",
+        headline=figures.figure(first) if first else "",
+        reading=headline.reading(top, bool(first and first.says)) if top else "",
         in_numbers=headline.in_numbers(top) if top else "",
         noticed=[headline.noticed(study) for study in found[questions.MISTAKES]],
-        sections=[Section(question, content) for question, content in sections.items() if content],
+        sections=[Section(question, said.get(question, ""), content) for question, content in sections.items()
+                  if content],
         asked=[question for question, content in sections.items() if content],
         cases=_cases(studies), origin=_origin(studies), seeded_absent=mutants.section(None) if seeded is None else "",
         compared_absent=comparison.section(None) if compared is None and not sections[questions.RUN_TIME] else "")

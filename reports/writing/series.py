@@ -10,7 +10,7 @@ from writing import markup
 from writing.tables import Row, fold, table
 
 SERIES = ("scheme", "~path", "~theory", "#observed order", "#by a power law alone", "verdict", "as expected",
-          Markup("#finest <var>N</var>"), "#error there", "#seconds there", "~reason")
+          Markup("#finest <var>N</var>"), "#error there", "#seconds there", "?reason")
 CASES = ("~series", Markup("#<var>N</var>"), Markup("#<var>h</var>"), Markup("#<var>δ</var>"), Markup("#Δ<var>t</var>"),
          "#steps", "#max-norm error", "#pairwise order", "#run time (s)", "#pairs", "#weight builds",
          "#quadrature points")

@@ -13,7 +13,8 @@ LONG = 12       # rows; a longer table of findings is folded behind its worst ro
 
 @dataclass(frozen=True)
 class Column:
-    """kind: "n" for numbers, "said" for text that may be broken into lines, "mark" for a narrow one, else empty."""
+    """kind: "n" for numbers, "said" for text that may be broken into lines, "said why" for what paper leaves out, "mark" for
+    a narrow one, else empty."""
     name: str
     kind: str = ""
 
@@ -37,8 +38,9 @@ class Table:
 
 
 def table(label, columns, rows):
-    """columns: texts, after "#" for numbers, "~" for text that may be broken, "|" for a mark; rows: Row or cells."""
-    kinds = {"#": "n", "~": "said", "|": "mark"}
+    """columns: texts, after "#" for numbers, "~" for text that may be broken, "?" for what paper leaves out, "|" for a mark;
+    rows: Row or cells."""
+    kinds = {"#": "n", "~": "said", "?": "said why", "|": "mark"}
     columns = tuple(Column(Markup(one[1:]) if isinstance(one, Markup) else one[1:], kinds[one[0]]) if one[0] in kinds
                     else Column(one) for one in columns)
     return Table(label, columns, tuple(row if isinstance(row, Row) else Row(tuple(row)) for row in rows))
@@ -88,7 +90,7 @@ WIDE = 0.6      # an interval of an order that is wider tells order 1 neither fr
 def entry_table(entries, label):
     """A row per entry of the ledger, all of it; of which statement each is, where there are several."""
     several = len({entry.statement for entry in entries}) > 1
-    columns = ("subject", "~check", "observed", "verdict", "as expected", "~reason")
+    columns = ("subject", "~check", "observed", "verdict", "as expected", "?reason")
     rows = [Row((entry.subject, entry.check, entry.measured, markup.badge(entry, entry.control), _as_expected(entry),
                  Markup("{} {}").format(entry.reason, markup.note(worth(entry))) if worth(entry) else entry.reason)
                 + ((entry.statement,) if several else ()), not entry.as_expected) for entry in entries]

@@ -8,8 +8,6 @@ from markupsafe import Markup
 from reading import ledger, names
 from writing import markup
 
-LONG = 12       # rows; a longer table of findings is folded behind its worst row
-
 
 @dataclass(frozen=True)
 class Column:

@@ -121,7 +121,8 @@ def _entries(chosen, styles):
 
 
 def _circumstances(series):
-    return (f"δ = {series.delta_text}", f"{series.source} source", f"step {series.step_text}", series.integrator, f"start {series.start}")
+    return (f"δ = {series.delta_text}", f"{series.source} source", f"step {series.step_text}", series.integrator,
+            f"start {series.start}")
 
 
 def _says(chosen):
@@ -134,6 +135,7 @@ def _says(chosen):
                 for seconds, error, N in zip(*_points([series.cases]))]
         picks = work_precision.cheapest(runs)
         if picks:
-            found = [f"{min(errors):g} in {seconds:.2g} s ({what})" for (seconds, _, what), errors in picks.items()]
+            found = [f"{min(errors):g} in {seconds:.2g} s ({what})"
+                     for (seconds, _, what), errors in picks.items()]
             said.append(f"Cheapest for an error against the {target} of at most {'; '.join(found)}.")
     return " ".join(said)

@@ -25,8 +25,8 @@ def drawings(study, styles):
         f"Growth of the max norm in a step relative to its bound, against delta/h, for {study.title}. "
         "Values: table below.",
         "Norm of a step less 1, relative to what the lemma allows: 1 is the bound, 0 no growth at all; above 1 the "
-        f"scale is logarithmic, up to {BEYOND:g}; triangles at the edge: beyond it. Worst of all particle numbers. Dashed and pale: negative controls, which must exceed "
-        "the bound.", says=says.bounds(found))]
+        f"scale is logarithmic, up to {BEYOND:g}; triangles at the edge: beyond it. Worst of all particle numbers. Dashed "
+        "and pale: negative controls, which must exceed the bound.", says=says.bounds(found))]
 
 
 def growth_figure(found):

@@ -67,12 +67,16 @@ def references(curves, orders, x_limits, y_limits, inches):
     return lines
 
 
-def error_bounds(panels, inches):
-    """Limits (low, high) of the error for panels [(curves, orders)], and the reference lines of every panel."""
+def error_bounds(panels, inches, limits=None):
+    """Limits (low, high) of the error for panels [(curves, orders)], and the reference lines of every panel.
+
+    limits: of the theory's variable, a pair per panel; those of its curves where none are given.
+    """
+    limits = limits or [x_limits(curves) for curves, _ in panels]
     errors = np.concatenate([y[np.isfinite(y)] for curves, _ in panels for _, y, *_ in curves])
     low, high = bare = padded(errors)
     per_decade = inches[1] / math.log10(high / low)
-    lines = [references(curves, orders, x_limits(curves), bare, inches) for curves, orders in panels]
+    lines = [references(curves, orders, span, bare, inches) for (curves, orders), span in zip(panels, limits)]
     for line in (line for group in lines for line in group):
         low = min(low, line(line.start) / 10 ** (0.12 / per_decade),
                   line(line.middle()) / 10 ** ((LABEL + 0.1) / per_decade))
@@ -82,6 +86,12 @@ def error_bounds(panels, inches):
 def x_limits(curves):
     """Limits of the theory's variable for curves (x, y, ...)."""
     return padded(np.concatenate([x[np.isfinite(x)] for x, *_ in curves]), 0.09)
+
+
+def equal_spans(limits):
+    """The limits (low, high), widened on both sides until all span as many decades as the widest: slopes compare."""
+    widest = max(high / low for low, high in limits)
+    return [tuple(math.sqrt(low * high) * widest ** half for half in (-0.5, 0.5)) for low, high in limits]
 
 
 def set_log_limits(panel, x_limits, y_limits, inches):

@@ -32,9 +32,9 @@ def curves_figure(found, one_bound=False):
             curves = [[_curve(finding) for finding in cell] for cell in group]
             orders = [sorted({finding.theory_order for finding in cell if finding.test != "bounds"
                               and finding.theory_order > 0}) for cell in group]
-            bounds, lines = axes.error_bounds(
-                [(cell + _bounds(of), order) for cell, of, order in zip(curves, group, orders) if cell], (width, tall))
             limits = axes.x_limits([curve for cell in curves for curve in cell])
+            shown = [(cell + _bounds(of), order) for cell, of, order in zip(curves, group, orders) if cell]
+            bounds, lines = axes.error_bounds(shown, (width, tall), [limits] * len(shown))
             lines = iter(lines)
             first = True
             for i, (column, cell) in enumerate(zip(columns, group)):
@@ -59,7 +59,6 @@ def curves_figure(found, one_bound=False):
                     panel.plot(x, y, color=styles[finding.subject]["color"], linewidth=0.9,
                                linestyle=(2.5 * turn, (2.5, 2.5 * max(1, len(styles) - 1))))
                 axes.set_log_limits(panel, limits, bounds, (width, tall))
-                panel.minorticks_off()      # they would take half of the drawing time
                 axes.draw_references(panel, next(lines), (width, tall), GRAY)
                 panel.tick_params(which="both", top=True, right=True, labelleft=first)
                 panel.set_xlabel(variable_math(cell[0].variable_name), labelpad=1)

@@ -4,6 +4,7 @@ Of matplotlib's groups, identifiers and styles only those stay that are needed. 
 what was drawn as their fallback, so that a page that sets none shows the figure as it was drawn.
 """
 
+from functools import lru_cache
 from itertools import groupby
 import re
 from xml.etree import ElementTree
@@ -18,7 +19,8 @@ SERIES = "s:"       # begins the gid of what is drawn of a series; its key follo
 LEGEND = "l:"       # the same of what a legend shows of it
 # An identifier that matplotlib made up.
 _MADE_UP = re.compile(r"[A-Za-z0-9.]+_\d+$")
-_DECIMALS = re.compile(r"-?\d*\.\d+(e-?\d+)?")
+_DECIMALS = re.compile(r"(\.\d\d)\d+")
+_ZEROS = re.compile(r"(?:\.00?|(\.\d)0)(?!\d)")
 _DRAWN_STROKE = re.compile(r"M[^A-Za-z]+[hv][^A-Za-z]+")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _FONT = re.compile(r"(italic )?([\d.]+)px ")
@@ -155,11 +157,11 @@ class _Figure:
 
 
 def _rounded(text):
-    """The text with its decimal numbers rounded to hundredths of a point."""
-    return _DECIMALS.sub(lambda number: f"{float(number[0]):.2f}".rstrip("0").rstrip(".").replace("-0.", "-.").lstrip("0")
-                         or "0", text)
+    """The text with its decimal numbers cut after hundredths of a point."""
+    return _ZEROS.sub(r"\1", _DECIMALS.sub(r"\1", text)) if "." in text else text
 
 
+@lru_cache(maxsize=4096)
 def _style(text):
     """A style as attributes, without what is usual and in colors of the page."""
     found = dict(part.split(": ", 1) for part in text.split("; "))

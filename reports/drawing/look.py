@@ -10,6 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from drawing import hover, svg
+from drawing.panel import Panel
 
 # Okabe and Ito's colors, told apart by readers of every color vision; their yellow is left out: too pale for a line.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9")
@@ -48,12 +49,12 @@ class Drawing:
     title: str
     figure: object          # matplotlib's; None once it is rendered
     alt: str
-    caption: str
+    caption: str            # how to read it
     statements: tuple = ()  # of theory that it shows; empty: those of its whole study
     says: str = ""          # what to see in it, a sentence made of the results
     inline: str = ""        # the figure as an element of a page, once it is rendered; see svg.inline
     curves: tuple = ()      # hover.Curve of each that is marked, once it is rendered
-    files: dict = field(default_factory=dict)   # content by extension, once it is rendered
+    files: dict = field(default_factory=dict)   # content by extension, once it is rendered: those asked for
 
 
 def slug(text):
@@ -68,10 +69,10 @@ def blank(height, width=WIDTH):
     return figure
 
 
-def add_axes(figure, left, bottom, width, height, **more):
-    """Axes at a place given in inches from the figure's lower left corner."""
+def add_axes(figure, left, bottom, width, height, kind=Panel, **more):
+    """Axes of this `kind` at a place given in inches from the figure's lower left corner."""
     across, up = figure.get_size_inches()
-    return figure.add_axes((left / across, bottom / up, width / across, height / up), **more)
+    return figure.add_axes(kind(figure, (left / across, bottom / up, width / across, height / up), **more))
 
 
 def foot_legend(figure, left, keys, texts, columns, spacing=2.0, bottom=0.1, **more):
@@ -91,7 +92,8 @@ def render(drawing, formats=()):
     drawn = _saved(drawing.figure, drawing.title, "svg").decode()
     files = {kind: svg.readable(drawn).encode() if kind == "svg" else _saved(drawing.figure, drawing.title, kind)
              for kind in formats}
-    return replace(drawing, inline=svg.inline(drawn, drawing.stem, drawing.alt), curves=curves, files=files, figure=None)
+    return replace(drawing, inline=svg.inline(drawn, drawing.stem, drawing.alt), curves=curves, files=files,
+                   figure=None)
 
 
 def image(figure, title, kind):

@@ -2,6 +2,7 @@
 
 from drawing.curves import curves_figure, drawable
 from drawing.look import Drawing, slug
+from kinds import says
 from kinds.kind import Kind
 
 
@@ -17,7 +18,8 @@ def drawings(study, styles):
                 f"Log-log plots for {statement}: {found[0].claim}. A panel per arrangement of particles and path. "
                 "Values: table below.",
                 f"{statement}. Thin lines: theory's slope, or, dashed, the bound of each scheme where one is claimed. "
-                "Schemes that agree are drawn within one another. Negative controls are drawn pale.", (statement,)))
+                "Schemes that agree are drawn within one another. Negative controls are drawn pale.", (statement,),
+                says=says.orders([finding for finding in study.findings if finding.statement == statement])))
     return drawn
 
 

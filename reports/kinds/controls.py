@@ -26,7 +26,7 @@ def drawings(study, styles):
         f"Matrix of {study.title}: rows are schemes, the true ones first, columns are checks. A filled cell is an "
         "alarm. Values: table below.",
         "Filled: the check raises an alarm, with its verdict. Outlined in red: an alarm where none is expected, or "
-        "none where one is. A true scheme must have no alarm, a wrong one at least one.")]
+        "none where one is. A true scheme must have no alarm, a wrong one at least one.", says=_held_to(study))]
 
 
 def rows_and_columns(found):

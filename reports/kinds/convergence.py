@@ -12,12 +12,14 @@ import numpy as np
 
 from drawing import axes, hover
 from drawing.frames import panel_frames
-from drawing.look import DEPARTING, GRAY, LEGEND, LINE, Drawing, typography
+from drawing.look import DEPARTING, GRAY, LEGEND, LINE, Drawing, foot_legend, typography
 from drawing.timed import of_cases
 from kinds.kind import Kind
 from reading import names
 from writing import figures, markup
 from writing.series import cases_fold, series_table
+
+COINCIDE = 0.01     # relative difference of errors below which two curves are said to lie on one another
 
 
 def drawings(study, styles):
@@ -35,7 +37,8 @@ def drawings(study, styles):
         "Values: tables below.",
         "Error of each scheme along each path; the thin line has theory's slope. Limit order: that of a power law "
         "with a correction, to which the order tends under refinement, with its 95 % interval; with three "
-        "levels the order is that of a power law alone. Numbers above a panel: particles N." + against)]
+        "levels the order is that of a power law alone. Numbers above a panel: particles N; all panels span as many "
+        "decades." + against, says=_says(study))]
 
 
 def error_figure(study, styles):
@@ -46,28 +49,38 @@ def error_figure(study, styles):
         panels = _by_path(study.findings)
         labels = names.scheme_names(result.series.scheme for result in study.findings)
         curves = [[_curve(result, styles[result.series.scheme]) for result in group] for group in panels.values()]
-        room = _legend_room(len(panels))
-        legends = [[_legend_text(result, labels[result.series.scheme], room) for result in group]
+        several, room = len(panels) > 1, _legend_room(len(panels))
+        legends = [[_legend_text(result, group[:i], labels, room, named=not several) for i, result in enumerate(group)]
                    for group in panels.values()]
         deepest = max(sum(LINE * (text.count("\n") + 1.6) for text in texts) for texts in legends)
-        figure, frames = panel_frames(len(panels), below=deepest if len(panels) > 1 else 0, above=0.54)
-        bounds, references = axes.error_bounds(list(zip(curves, map(_orders, panels.values()))), frames[0].inches)
-        for frame, (path, group), drawn, lines, texts in zip(frames, panels.items(), curves, references, legends):
-            _error_panel(frame, path, group, drawn, bounds, lines, labels)
-            _legend(frame, group, drawn, texts, len(panels) == 1, labels)
+        keys = {labels[scheme]: styles[scheme] for scheme in labels}
+        foot = math.ceil(len(keys) / 2) * LINE * 1.6 + 0.15
+        figure, frames = panel_frames(len(panels), above=0.54, below=deepest if several else 0,
+                                      foot=foot if several else 0)
+        limits = axes.equal_spans(list(map(axes.x_limits, curves)))
+        bounds, references = axes.error_bounds(list(zip(curves, map(_orders, panels.values()))), frames[0].inches,
+                                               limits)
+        for frame, (path, group), drawn, lines, texts, span in zip(frames, panels.items(), curves, references, legends,
+                                                                   limits):
+            _error_panel(frame, path, group, drawn, (span, bounds), lines, labels)
+            _legend(frame, group, drawn, texts, not several, labels)
             if frame.first:
                 measured = "error" if study.scene.u else "difference to a finer run"
                 frame.axes.set_ylabel(f"max-norm {measured} at $T = {study.scene.T:.4g}$")
+        if several:
+            key = foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in keys.values()],
+                              map(names.literal, keys), 2)
+            hover.mark_legend(key, keys)
         return figure
 
 
-def _error_panel(frame, path, group, curves, bounds, references, labels):
+def _error_panel(frame, path, group, curves, limits, references, labels):
     panel = frame.axes
     panel.set_title(names.path_math(path), pad=21)
     for (x, y, style), result in zip(curves, group):
         curve, = panel.plot(x, y, **style.line())
         hover.mark(curve, labels[result.series.scheme], _about(result), **of_cases(result.series.cases))
-    axes.set_log_limits(panel, axes.x_limits(curves), bounds, frame.inches)
+    axes.set_log_limits(panel, *limits, frame.inches)
     axes.name_levels(panel, [(result.series.cases.variable, result.series.cases.N) for result in group], frame.inches[0],
                      lead=frame.first)
     axes.draw_references(panel, references, frame.inches, GRAY)
@@ -106,14 +119,17 @@ def _legend_room(panels):
     return 62 if panels in (2, 4) else 40
 
 
-def _legend_text(result, name, room):
+def _legend_text(result, before, labels, room, named):
+    """`before`: the results of the panel that are drawn below this one; `named`: with the name of the scheme."""
     theory = names.order(result.theory_order, "{:g}")
     if math.isfinite(result.observed_order):
         interval = f"[{names.order(result.observed_low)}, {names.order(result.observed_high)}]"
         order = "limit order" if result.observed_order == result.extrapolated_order else "order"
-        lines = [name, f"{order} {names.order(result.observed_order)} {interval}, theory {theory}"]
+        lines = [f"{order} {names.order(result.observed_order)} {interval}, theory {theory}"]
     else:
-        lines = [name, f"order not available, theory {theory}"]
+        lines = [f"order not available, theory {theory}"]
+    if named:
+        lines.insert(0, labels[result.series.scheme])
     if not result.as_expected:
         lines.append(f"{result.verdict}, expected {result.expected}")
     elif result.verdict != "confirmed":
@@ -122,7 +138,35 @@ def _legend_text(result, name, room):
     for count, what in ((np.sum(~np.isfinite(errors)), "not finite"), (np.sum(errors == 0), "zero")):
         if count:
             lines.append(f"{count} of {len(errors)} levels {what}")
+    for other in before:
+        apart = _apart(errors, other.series.cases.error_linf)
+        if apart < COINCIDE:
+            lines += textwrap.wrap(f"within {100 * apart:.2g} % of {labels[other.series.scheme]}", room)
+            break
     return "\n".join(names.literal(part) for line in lines for part in textwrap.wrap(line, room))
+
+
+def _apart(errors, others):
+    """The largest relative difference of the errors of two series; infinite where they are not of the same levels."""
+    if len(errors) != len(others) or not len(errors) or not np.all(np.isfinite(errors) & (errors > 0)):
+        return math.inf
+    return float(np.max(np.abs(others / errors - 1)))
+
+
+def _says(study):
+    """How many series are as theory says, and where their orders lie."""
+    found = study.findings
+    right, theories = sum(result.as_expected for result in found), {result.theory_order for result in found}
+    said = f"All {len(found)} series are as expected" if right == len(found) else (
+        f"{len(found) - right} of {len(found)} series are not as expected")
+    timely = [result for result in found if math.isfinite(result.observed_order)]
+    if len(theories) > 1 or not timely:
+        return said + "."
+    orders = [result.observed_order for result in timely]
+    least, most = min(one.observed_low for one in timely), max(one.observed_high for one in timely)
+    return (f"{said}: orders between {names.order(min(orders))} and {names.order(max(orders))}, theory "
+            f"{names.order(theories.pop(), '{:g}')}; all 95 % intervals lie within [{names.order(least)}, "
+            f"{names.order(most)}].")
 
 
 def _by_path(findings):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from kinds import says
 from kinds.kind import Kind
 from reading import names
 
@@ -18,7 +19,9 @@ def drawings(study, styles):
         f"Share of the 95 % intervals that contain the true order, by number of levels, for {study.title}. "
         "Values: table below.",
         "Share of the reported 95 % intervals that contain the true order; error bars: 95 % of a binomial count "
-        "(Wilson). The shaded band is demanded; a negative control (pale) must leave it.")]
+        "(Wilson). The shaded band is demanded; a negative control (pale) must leave it.",
+        says=says.share(np.concatenate([finding.points.value for finding in found if not finding.control] or [[]]),
+                        "of the reported 95 % intervals contain the true order"))]
 
 
 def coverage_figure(found):

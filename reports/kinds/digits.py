@@ -2,6 +2,7 @@
 
 from drawing.curves import curves_figure, drawable
 from drawing.look import Drawing
+from kinds import says
 from kinds.kind import Kind
 
 
@@ -16,7 +17,7 @@ def drawings(study, styles):
         "N_j. Values: table below.",
         "The largest relative error against arithmetic of 50 digits, given exact gaps; dashed: its bound. Pale: the "
         "negative control, the same integrals as differences of closed forms.",
-        tuple(dict.fromkeys(finding.statement for finding in found)))]
+        tuple(dict.fromkeys(finding.statement for finding in found)), says=says.bounds(found))]
 
 
 KIND = Kind(drawings)

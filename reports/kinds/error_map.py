@@ -3,6 +3,7 @@
 import math
 import textwrap
 
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm
 from matplotlib.lines import Line2D
@@ -13,6 +14,7 @@ import numpy as np
 from drawing import axes, hover
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from kinds.kind import Kind
+from kinds.says import verdicts
 from reading import names
 
 # Refinement paths: name, horizon at spacing h, dashes.
@@ -31,14 +33,42 @@ def drawings(study, styles):
         Drawing(study.name, study.title, map_figure(study, planes),
                 f"Color maps of the max-norm error over spacing h and horizon delta {described}",
                 "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
-                f"dots are the cases. Lines: refinement paths. {_fit_caption(study)}Asymptotic compatibility: against "
-                "the nonlocal model the error falls to the left at every horizon, against the local equation toward "
-                "the lower left, however that is approached."),
+                "dots are the cases, thin lines those of equal error. Thick lines: refinement paths. "
+                f"{_fit_caption(study)}Asymptotic compatibility: against the nonlocal model the error falls to the left at every horizon, against the local equation toward "
+                "the lower left, however that is approached.", says=f"{verdicts(study.findings)}."),
         Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.evidence, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "
-                "edge; it is wide where a cut passes from δ < h to δ > h. Right: error at the finest spacing; against "
-                "the local equation it approaches the distance of the two solutions, O(δ).")]
+                "edge. Shaded: horizons between the finest and the coarsest spacing. There a cut passes from δ < h to "
+                "δ > h, and where δ is close to h parts of the error cancel, also shortly below: no order of a limit "
+                "can be read (pale). Right: error at the finest spacing; against the local equation it approaches the "
+                "distance of the two solutions, O(δ).", says=_cuts_say(study.evidence, planes))]
+
+
+def _cuts(evidence, scheme, target):
+    """(delta, order, its interval) of the cuts at fixed horizon of a scheme; columns of an array, ascending."""
+    return np.array(sorted((one.points.delta[0], one.observed_order, one.observed_low, one.observed_high)
+                           for one in evidence if (one.series.scheme, one.series.source) == (scheme, target)
+                           and len(one.points))).reshape(-1, 4).T
+
+
+def _between(planes):
+    """(finest, coarsest) spacing of all planes."""
+    every = np.concatenate([h for h, *_ in planes.values()])
+    return every.min(), every.max()
+
+
+def _cuts_say(evidence, planes):
+    """The orders on both sides of the horizons at which cuts pass from δ < h to δ > h."""
+    finest, coarsest = _between(planes)
+    said = []
+    for target, what in TARGETS.items():
+        cuts = np.concatenate([_cuts(evidence, *key) for key in planes if key[1] == target] or [np.empty((4, 0))], axis=1)
+        for where, text in ((cuts[0] > coarsest, "δ > h at all levels"), (cuts[0] < finest / 4, "δ < h/4 at all levels")):
+            orders = cuts[1][where & np.isfinite(cuts[1])]
+            if len(orders):
+                said.append(f"{what}, {text}: order {names.order(orders.min())} to {names.order(orders.max())}")
+    return f"{'; '.join(said)}.".capitalize() if said else ""
 
 
 def error_planes(evidence):
@@ -82,9 +112,9 @@ def map_figure(study, planes):
                 h, delta, error = planes[scheme, target]
                 panel = add_axes(figure, left + column * (width + gap), bottom, width, tall, xscale="log", yscale="log")
                 panel.contourf(h, delta, np.ma.masked_invalid(error), levels=levels, cmap=colors, norm=norm)
+                _label_contours(panel, h, delta, error)
                 _paths(panel, h, delta)
                 axes.set_log_limits(panel, (h[0], h[-1]), (delta[0], delta[-1]), (width, tall))
-                panel.minorticks_off()      # they would take half of the drawing time
                 panel.tick_params(which="both", direction="out", labelleft=column == 0,
                                   labelbottom=row == len(targets) - 1)
                 panel.set_title(titles[scheme, target], fontsize=9, pad=4)
@@ -99,7 +129,7 @@ def map_figure(study, planes):
                     panel.annotate(TARGETS[target], (0, 1), xycoords="axes fraction", xytext=(0, 72 * spaces[row] - 17),
                                    textcoords="offset points", va="bottom", fontsize=11.5)
         bar = figure.colorbar(ScalarMappable(norm, colors), cax=add_axes(
-            figure, left + len(schemes) * (width + gap), foot, 0.16, height - spaces[0]), spacing="proportional")
+            figure, left + len(schemes) * (width + gap), foot, 0.16, height - spaces[0], Axes), spacing="proportional")
         ticks = [level for level in levels if abs(math.log10(level) - round(math.log10(level))) < 1e-6] or levels[::3]
         bar.set_ticks(ticks, labels=[axes.tick_text(tick, [1e-9]) for tick in ticks])
         bar.minorticks_off()
@@ -119,15 +149,29 @@ def _levels(errors):
     return 10.0 ** (np.arange(first, max(last, first + 1) + 1) / per_decade)
 
 
+def _label_contours(panel, h, delta, error):
+    """Thin lines of equal error, two a decade, with their values."""
+    if np.sum(np.isfinite(error)) < 4:
+        return
+    levels = [float(f"{step}e{power}") for power in range(-12, 2) for step in (1, 3)]
+    levels = [level for level in levels if np.nanmin(error) < level < np.nanmax(error)]
+    if not levels:
+        return
+    lines = panel.contour(h, delta, np.ma.masked_invalid(error), levels=levels, colors="white", linewidths=0.8)
+    for text in panel.clabel(lines, fontsize=8, inline_spacing=3, colors="black", fmt=lambda level: f"{level:g}"):
+        text.set_path_effects([Stroke(linewidth=2.2, foreground="white", alpha=0.75), Normal()])
+
+
 def _paths(panel, h, delta):
     panel.plot(*(grid.ravel() for grid in np.meshgrid(h, delta)), linestyle="none", marker=".", markersize=1.2,
                color="white", alpha=0.7)
-    x = np.geomspace(h[0], h[-1], 60)
+    x = np.geomspace(h[0], h[-1], 200)
     for _, horizon, dash in PATHS:
         y = horizon(x)
         inside = (y >= delta[0]) & (y <= delta[-1])
         if inside.any():
-            line, = panel.plot(x[inside], y[inside], color="black", linestyle=dash, linewidth=1.2)
+            ends = np.flatnonzero(inside)[[0, -1]]      # every path is straight on these axes
+            line, = panel.plot(x[ends], y[ends], color="black", linestyle=dash, linewidth=1.2)
             line.set_path_effects([Stroke(linewidth=2.6, foreground="white", alpha=0.75), Normal()])
 
 
@@ -174,6 +218,7 @@ def cuts_figure(evidence, planes):
         orders = {target: add_axes(figure, left + i * (width + gap), foot, width, tall, xscale="log")
                   for i, target in enumerate(TARGETS)}
         errors = add_axes(figure, WIDTH - 0.1 - width, foot, width, tall, xscale="log", yscale="log")
+        finest, coarsest = _between(planes)
         styles = {}
         for i, scheme in enumerate(schemes):
             filled, color = scheme.divergence != "nonlocal", COLORS[i % len(COLORS)]
@@ -183,17 +228,17 @@ def cuts_figure(evidence, planes):
             dash = DASHES[1] if target == "local" else "solid"
             curve, = errors.plot(delta, error[:, 0], linestyle=dash, **styles[scheme])
             hover.mark(curve, labels[scheme], TARGETS[target], δ=delta, **{"δ/h": delta / h[0], "max-norm error": error[:, 0]})
-            fits = sorted((one.points.delta[0], one.observed_order, one.observed_low, one.observed_high)
-                          for one in evidence if (one.series.scheme, one.series.source) == (scheme, target)
-                          and len(one.points))
-            if fits:
-                x, order, low, high = np.array(fits).T
-                # Schemes beside each other, for the bars of schemes that agree would hide one another.
-                x = x * 1.07 ** (schemes.index(scheme) - (len(schemes) - 1) / 2)
-                curve = orders[target].errorbar(x, order, yerr=np.nan_to_num(np.clip([order - low, high - order], 0, None)),
-                                elinewidth=0.8, linestyle=dash, **styles[scheme])
-                hover.mark(curve, labels[scheme], TARGETS[target], δ=[one[0] for one in fits], order=order,
-                           interval=[f"[{names.order(a)}, {names.order(b)}]" for a, b in zip(low, high)])
+            x, order, low, high = _cuts(evidence, scheme, target)
+            passing = (x >= finest) & (x <= coarsest)
+            bars = np.nan_to_num(np.clip([order - low, high - order], 0, None))
+            # Schemes beside each other, for the bars of schemes that agree would hide one another.
+            at, x = x, x * 1.07 ** (schemes.index(scheme) - (len(schemes) - 1) / 2)
+            for shown, line in ((~passing, dict(linestyle=dash)), (passing, dict(linestyle="none", alpha=0.3))):
+                if shown.any():
+                    curve = orders[target].errorbar(x, np.where(shown, order, np.nan), yerr=np.where(shown, bars, 0.0),
+                                                    elinewidth=0.8, **styles[scheme], **line)
+                    hover.mark(curve, labels[scheme], TARGETS[target], δ=at, order=order,
+                               interval=[f"[{names.order(a)}, {names.order(b)}]" for a, b in zip(low, high)])
         limits = axes.padded(np.concatenate([delta for _, delta, _ in planes.values()]))
         bounds, (lines,) = axes.error_bounds([([(delta, error[:, 0], None) for _, delta, error in planes.values()],
                                                [1.0])], (width, tall))
@@ -203,6 +248,9 @@ def cuts_figure(evidence, planes):
             panel.set_xlabel(r"$\delta$")
         for i, (target, panel) in enumerate(orders.items()):
             panel.set(yscale="linear", ylim=(-0.6, 2.6))
+            panel.axvspan(finest, coarsest, color="#EDF0F3", linewidth=0, zorder=0)
+            panel.annotate("h passes δ", (math.sqrt(finest * coarsest), 0), xycoords=panel.get_xaxis_transform(),
+                           xytext=(0, 4), textcoords="offset points", ha="center", va="bottom", fontsize=9, color=GRAY)
             panel.axhline(1.0, color=GRAY, linewidth=0.8)
             panel.tick_params(labelleft=i == 0)
             panel.set_title(TARGETS[target], fontsize=10.5, pad=5)

@@ -5,7 +5,7 @@ from markupsafe import Markup
 from drawing.curves import curves_figure, drawable
 from drawing.look import Drawing, slug
 from drawing.subjects import arrangement, conditions
-from kinds import kind
+from kinds import kind, says
 from reading import ledger
 from writing import markup, tables
 
@@ -29,7 +29,7 @@ def drawings(study, styles):
         groups.setdefault((finding.statement, finding.statement + part), []).append(finding)
     return [Drawing(f"{study.name}.{slug(name)}", f"{study.title}: {name}", curves_figure(group),
                     f"Log-log plots for {name}, a panel per arrangement of particles and case. Values: table below.",
-                    f"{name[0].upper()}{name[1:]}. {CAPTION}", (statement,))
+                    f"{name[0].upper()}{name[1:]}. {CAPTION}", (statement,), says=says.orders(group))
             for (statement, name), group in groups.items()]
 
 

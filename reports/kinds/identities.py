@@ -8,6 +8,7 @@ import numpy as np
 from drawing.curves import curves_figure, drawable
 from drawing.look import COLORS, DEPARTING, GRAY, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.subjects import arrangement
+from kinds import says
 from kinds.kind import Kind
 from reading import names
 
@@ -24,14 +25,14 @@ def drawings(study, styles):
             "A dot per finding: the largest |value| relative to its bound, over all its particles and horizons; "
             "between two bounds, the distance to their middle. At the right edge: 1000 times the bound or more. A "
             "negative control (open) belongs to the right of the line, all others to the left. Right: the largest "
-            "|value| of the row."))
+            "|value| of the row.", says=says.bounds(bounded)))
     curves = [finding for finding in study.findings if finding.test != "bounds" and drawable(finding)]
     if curves:
         drawn.append(Drawing(
             f"{study.name}.orders", f"{study.title}: orders", curves_figure(curves),
             f"Log-log plots of the values of {study.title} that must vanish with an order. Values: table below.",
             "Values that must vanish with an order; thin lines: theory's slope.",
-            tuple(dict.fromkeys(finding.statement for finding in curves))))
+            tuple(dict.fromkeys(finding.statement for finding in curves)), says=says.orders(curves)))
     return drawn
 
 

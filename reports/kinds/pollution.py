@@ -26,7 +26,19 @@ def drawings(study, styles):
         "Largest difference of the fields without one source of error, relative to the max-norm error at the finest "
         "level. Parts of the two bars may cancel or lie at different places, so they need not add up to 1. Hatched: "
         "time makes more than half of the error; the observed order is not that of space alone. Right: "
-        "what must stay left of the line.")]
+        "what must stay left of the line.", says=_says(found))]
+
+
+def _says(found):
+    """Where time makes more than half of the error, and the largest part that must be negligible."""
+    timely = sum(_shares(finding).get("time", 0.0) > 0.5 for finding in found)
+    small = [(value, label) for finding in found for label, value in _shares(finding).items()
+             if label not in BARS and math.isfinite(value)]
+    said = f"Time makes more than half of the error in {timely} of {len(found)} series"
+    if small:
+        value, label = max(small)
+        said += f"; of what must be negligible the largest part is {100 * value:.2g} % ({label})"
+    return f"{said}."
 
 
 def shares_figure(found):

@@ -1,4 +1,4 @@
-"""Error against run time of all convergence studies together."""
+"""Error against run time, a figure per scene: errors of different problems do not compare."""
 
 from dataclasses import astuple
 import math
@@ -8,22 +8,26 @@ import numpy as np
 
 from drawing import axes, hover
 from drawing.frames import panel_frames
-from drawing.look import DASHES, LINE, Drawing, foot_legend, slug, typography
+from drawing.look import DASHES, LINE, MARKERS, Drawing, foot_legend, slug, typography
 from drawing.styles import Style
-from drawing.timed import error_over_seconds
-from reading import names
+from drawing.timed import EFFICIENT, error_over_seconds, mark_frontier
+from reading import names, work_precision
 
 
-def drawings(studies, styles, scene):
-    """The cost figure of the studies of one scene, or nothing."""
-    figure = cost_figure(studies, styles)
-    return [] if figure is None else [Drawing(
-        f"cost.{slug(scene)}", f"Error against run time: {scene}", figure,
-        f"Log-log plot of the max-norm error against the run time of every scheme on the scene {scene}, a panel per "
-        "path. Values: tables below.",
-        f"Scene {scene}. Run time of the whole time loop, or a case's share of it where several advance on the same "
-        "particles: median of the repeats, bars from the fastest to the slowest. Comparable only between runs of one "
-        "machine. Series run by several studies are drawn once.")]
+def drawings(studies, styles):
+    """A figure for each scene that has errors and run times."""
+    drawn = []
+    for scene, chosen in _by_scene(cost_curves(studies)).items():
+        drawn.append(Drawing(
+            f"cost.{slug(scene)}", f"Error against run time: {scene}", cost_figure(chosen, styles),
+            f"Log-log plot of the max-norm error against the run time of every scheme on the scene {scene}, a panel per "
+            "path. Values: tables of the studies.",
+            f"Scene {scene}. Run time of the whole time loop, or a case's share of it where several advance on the same "
+            "particles: median of the repeats, bars from the fastest to the slowest. On gray, with N: the efficient "
+            "frontier, the runs that no other run of the panel beats in both error and time. Nonlocal: errors against "
+            "the nonlocal model, at a fixed horizon. Comparable only between runs of one machine. Series run by several "
+            "studies are drawn once.", says=_says(chosen)))
+    return drawn
 
 
 def cost_curves(studies):
@@ -35,66 +39,103 @@ def cost_curves(studies):
     for study in studies:
         for series in (finding.series for finding in study.findings if study.scene.u):
             key = (series.scheme, series.path, series.delta_text, series.source, series.step_text, series.integrator,
-                   astuple(study.scene))
+                   series.start, astuple(study.scene))
             if key not in curves or len(series.cases) > len(curves[key][1].cases):
                 curves[key] = (study, series)
     return list(curves.values())
 
 
-def cost_figure(studies, styles):
-    """Max-norm error against run time of every series of the studies, a panel per path; None if there is none."""
-    chosen = cost_curves(studies)
-    if not chosen:
-        return None
+def _by_scene(chosen):
+    """{name of a scene: its curves (study, series)}, as far as they have points to draw; T only tells scenes apart."""
+    scenes = {}
+    for study, series in chosen:
+        if np.any(np.isfinite(axes.drawable(series.cases.seconds, series.cases.error_linf)[0])):
+            scenes.setdefault(astuple(study.scene), []).append((study, series))
+    named = {}
+    for curves in scenes.values():
+        study = curves[0][0]
+        name = study.scene.name or study.name
+        named[f"{name} to T = {study.scene.T:.4g}" if name in named else name] = curves
+    return named
+
+
+def cost_figure(chosen, styles):
+    """Max-norm error against run time of the curves of a scene, a panel per path."""
     with typography():
-        entries = _cost_entries(chosen, styles)
+        entries = _entries(chosen, styles)
         panels = {}
         for (_, series), entry in zip(chosen, entries):
-            panels.setdefault(series.path, []).append((series.cases, *entry))
+            panels.setdefault((series.path, series.source), []).append((series.cases, *entry))
         legend = dict(sorted(entries, key=lambda entry: entry[0]))
-        columns = 2 if max(map(len, legend)) > 32 else 3
-        foot = math.ceil(len(legend) / columns) * LINE * 1.5 + 0.15
-        figure, frames = panel_frames(len(panels), below=0, above=0.4, foot=foot)
-        timed = [case for _, series in chosen for case in zip(series.cases.seconds, series.cases.error_linf)
-                 if all(math.isfinite(value) and value > 0 for value in case)]
-        seconds, errors = np.array(timed).T if timed else (np.array([]), np.array([]))
-        for frame, (path, drawn) in zip(frames, panels.items()):
-            frame.axes.set_title(names.path_math(path))
+        longest = max(map(len, legend))
+        columns = 1 if longest > 56 else 2 if longest > 32 else 3
+        foot = math.ceil((len(legend) + 1) / columns) * LINE * 1.5 + 0.15
+        figure, frames = panel_frames(len(panels), above=0.4, below=0, foot=foot)
+        points = {of: _points([cases for cases, *_ in drawn]) for of, drawn in panels.items()}
+        seconds, errors = (np.concatenate([found[i] for found in points.values()]) for i in (0, 1))
+        for frame, ((path, source), drawn) in zip(frames, panels.items()):
+            frame.axes.set_title(names.path_math(path) + (", nonlocal" if source == "nonlocal" else ""))
+            mark_frontier(frame.axes, *points[path, source])
             for cases, text, style in drawn:
                 error_over_seconds(frame.axes, cases, name=text, about=path, **style.line())
-            axes.set_log_limits(frame.axes, axes.padded(seconds), axes.padded(errors), frame.inches)
-            frame.axes.minorticks_off()     # they would take half of the drawing time
+            axes.set_log_limits(frame.axes, axes.padded(seconds, 0.09), axes.padded(errors, 0.09), frame.inches)
             if frame.first:
                 frame.axes.set_ylabel("max-norm error at $T$")
             if frame.last:
                 frame.axes.set_xlabel("run time (s)")
             frame.axes.tick_params(labelleft=frame.first, labelbottom=frame.last)
-        key = foot_legend(figure, frames[0].left, [Line2D([], [], **style.line()) for style in legend.values()],
-                          map(names.literal, legend), columns)
-        hover.mark_legend(key, legend)
+        key = foot_legend(figure, frames[0].left, [*(Line2D([], [], **style.line()) for style in legend.values()),
+                                                   Line2D([], [], **EFFICIENT)],
+                          [*map(names.literal, legend), "efficient frontier, with N"], columns)
+        hover.mark_legend(key, [*legend, None])
         return figure
 
 
-def _cost_entries(chosen, styles):
-    """(legend text, style) of every curve: the scheme, and what else tells apart two curves of it in one panel."""
+def _points(all_cases):
+    """(seconds, error, N) of all cases that can be drawn."""
+    seconds, errors, N = (np.concatenate([getattr(cases, name) for cases in all_cases])
+                          for name in ("seconds", "error_linf", "N"))
+    good = np.isfinite(axes.drawable(seconds, errors)[0])
+    return seconds[good], errors[good], N[good]
+
+
+def _entries(chosen, styles):
+    """(legend text, style) of every curve: the scheme, and what else tells apart two curves of it in some panel."""
     labels = names.scheme_names(series.scheme for _, series in chosen)
-    groups = {}
-    for study, series in chosen:
-        groups.setdefault((series.path, series.scheme), []).append(_circumstances(study, series))
+    twins = {}      # of a scheme along one path
+    for _, series in chosen:
+        twins.setdefault(series.scheme, {}).setdefault(series.path, []).append(_circumstances(series))
     entries, variants = [], {}
-    for study, series in chosen:
-        found, twins = _circumstances(study, series), groups[series.path, series.scheme]
-        told = [text for i, text in enumerate(found) if len({twin[i] for twin in twins}) > 1]
+    for _, series in chosen:
+        told = tuple(text for i, text in enumerate(_circumstances(series))
+                     if any(len({twin[i] for twin in group}) > 1 for group in twins[series.scheme].values()))
         seen = variants.setdefault(series.scheme, {})
-        shift = seen.setdefault(tuple(told), len(seen))
+        shift = seen.setdefault(told, len(seen))
         style = styles[series.scheme]
         if shift:
             dash = DASHES[(DASHES.index(style.dash) + shift) % len(DASHES)]
-            style = Style(style.color, style.marker, dash, style.filled)
+            style = Style(style.color, MARKERS[(MARKERS.index(style.marker) + 3 * shift) % len(MARKERS)], dash,
+                          not style.filled)
         entries.append((", ".join([labels[series.scheme], *told]), style))
     return entries
 
 
-def _circumstances(study, series):
+def _circumstances(series):
     return (f"δ = {series.delta_text}", f"{series.source} source", f"step {series.step_text}", series.integrator,
-            f"scene {study.scene.name}", f"study {study.name}" if not study.scene.name else f"T = {study.scene.T:.4g}")
+            f"start {series.start}")
+
+
+def _says(chosen):
+    """The cheapest run for each of some errors, over all paths."""
+    labels = names.scheme_names(series.scheme for _, series in chosen)
+    said = []
+    for source, target in (("local", "local equation"), ("nonlocal", "nonlocal model")):
+        runs = [(seconds, error, f"{labels[series.scheme]}, {series.path}, N = {N}")
+                for _, series in chosen if series.source == source
+                for seconds, error, N in zip(*_points([series.cases]))]
+        picks = work_precision.cheapest(runs)
+        if picks:
+            found = [f"{min(errors):g} in {seconds:.2g} s ({what})"
+                     for (seconds, _, what), errors in picks.items()]
+            said.append(f"Cheapest for an error against the {target} of at most {'; '.join(found)}.")
+    return " ".join(said)

@@ -22,7 +22,8 @@ def drawings(study, styles):
         f"Shares of false firm verdicts and of decided ones by number of levels, for {study.title}. Values: table below.",
         f"Left: verdicts that pass what departs or condemn what holds, {1000 * total:.2f} in 1,000 of all; the line is what "
         f"may be. Right: verdicts that are not inconclusive where the last pairwise order shows the truth, {100 * share:.1f} % "
-        "of all; the line is what is demanded. Error bars: 95 % of a binomial count (Wilson).")]
+        "of all; the line is what is demanded. Error bars: 95 % of a binomial count (Wilson).",
+        says=f"{1000 * total:.2f} in 1,000 verdicts are firm and false; where the truth shows, {100 * share:.1f} % decide.")]
 
 
 def scan_figure(curves, sums):

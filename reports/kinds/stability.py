@@ -6,11 +6,14 @@ import numpy as np
 
 from drawing import axes
 from drawing.curves import bounded
-from drawing.look import DASHES, WIDTH, Drawing, add_axes, blank, mark_departing, typography
+from drawing.look import DASHES, GRAY, WIDTH, Drawing, add_axes, blank, mark_departing, typography
 from drawing.subjects import (GAP, LEFT, RIGHT, arrangement, legend_height, subject_legend, subject_styles,
                               variable_math)
+from kinds import says
 from kinds.kind import Kind
 from reading import names
+
+BEYOND = 100.0      # times the bound: where the axis ends; marks at the edge stand for what goes on
 
 
 def drawings(study, styles):
@@ -22,8 +25,8 @@ def drawings(study, styles):
         f"Growth of the max norm in a step relative to its bound, against delta/h, for {study.title}. "
         "Values: table below.",
         "Norm of a step less 1, relative to what the lemma allows: 1 is the bound, 0 no growth at all; above 1 the "
-        "scale is logarithmic. Worst of all particle numbers. Dashed and pale: negative controls, which must exceed "
-        "the bound.")]
+        f"scale is logarithmic, up to {BEYOND:g}; triangles at the edge: beyond it. Worst of all particle numbers. Dashed "
+        "and pale: negative controls, which must exceed the bound.", says=says.bounds(found))]
 
 
 def growth_figure(found):
@@ -40,10 +43,11 @@ def growth_figure(found):
         x_all = np.concatenate([x for x, _ in curves.values()])
         drawn = {(rows.index(finding.statement), columns.index(arrangement(finding))) for finding in found}
         lowest = {(max(i for i, k in drawn if k == j), j) for j in range(len(columns))}
-        high = max(2.0, values.max(initial=1.0))
         low = min(-0.1, max(-10.0, values.min(initial=0.0)))
         for i, row in enumerate(rows):
             bottom = figure.get_figheight() - above - (i + 1) * tall - i * between
+            grown = np.concatenate([curves[id(one)][1] for one in found if one.statement == row])
+            high = min(BEYOND, max(2.0, np.max(grown[np.isfinite(grown)], initial=1.0)))
             for j, column in enumerate(columns):
                 group = [one for one in found if (one.statement, arrangement(one)) == (row, column)]
                 if not group:
@@ -62,6 +66,7 @@ def growth_figure(found):
                     if finding.control:
                         style.update(linestyle=DASHES[1], alpha=0.4)
                     panel.plot(*curves[id(finding)], **style)
+                    _leaves_above(panel, *curves[id(finding)], high, style)
                     if not finding.as_expected:
                         mark_departing(panel, *curves[id(finding)])
                 panel.tick_params(which="both", top=True, right=True, labelleft=j == 0, labelbottom=(i, j) in lowest)
@@ -76,6 +81,16 @@ def growth_figure(found):
                                    textcoords="offset points", va="bottom", fontsize=11)
         subject_legend(figure, styles)
         return figure
+
+
+def _leaves_above(panel, x, y, high, style):
+    """Marks at the upper edge for what lies beyond it, and how far it goes."""
+    beyond = y > 1.4 * high
+    if beyond.any():
+        panel.plot(x[beyond], np.full(beyond.sum(), 0.955), linestyle="none", marker="^", markersize=4.5,
+                   color=style["color"], transform=panel.get_xaxis_transform(), alpha=style.get("alpha"))
+        panel.annotate(f"up to {axes.tick_text(10.0 ** round(math.log10(y[beyond].max())), [1e-9])}", (0.03, 0.9),
+                       xycoords="axes fraction", va="top", fontsize=9, color=GRAY)
 
 
 def _growth(finding):

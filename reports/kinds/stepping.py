@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 import numpy as np
 
 from drawing import axes, hover
-from drawing.look import COLORS, DASHES, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
+from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.timed import error_over_seconds
 from kinds.kind import Kind
 from reading import names
@@ -27,7 +27,24 @@ def drawings(study, styles):
         f"Log-log plots of the max-norm error against run time for {study.title}, a curve per integrator and rule of "
         "steps. Values: table below.",
         "Error against the run time of the whole time loop, from coarse to fine N; bars from the fastest to the slowest "
-        "repeat. Lower left is better. Crosses at the upper edge: runs that blew up, at the time they took to do so.")]
+        "repeat. Lower left is better. Crosses at the upper edge: runs that blew up, at the time they took to do so.",
+        says=_says(study))]
+
+
+def _only_bounded(found):
+    """Whether nothing is asked for but that solutions stay bounded, or that they do not."""
+    return all(result.expected in ("stable", "unstable") for result in found)
+
+
+def _says(study):
+    """How many ways stay bounded, and the cheapest of the best errors."""
+    lost = sum(result.verdict == "unstable" for result in study.findings)
+    right = sum(result.as_expected for result in study.findings)
+    said = (f"{len(study.findings) - lost} of {markup.several(len(study.findings), 'series')} stay bounded, {lost} blow "
+            f"up; {'all' if right == len(study.findings) else right} as expected.")
+    if _only_bounded(study.findings):
+        said += " No convergence is expected here: the claim is that solutions stay bounded."
+    return said
 
 
 def run_time_figure(panels):
@@ -58,7 +75,6 @@ def run_time_figure(panels):
                 for result in panels[path, scheme]:
                     _draw(panel, result, ways.index(result.series.stepping))
                 axes.set_log_limits(panel, times, errors, (width, tall))
-                panel.minorticks_off()      # they would take half of the drawing time
                 last = i == len(paths) - 1
                 panel.tick_params(top=True, right=True, labelleft=k == 0, labelbottom=last)
                 if i == 0:
@@ -72,6 +88,10 @@ def run_time_figure(panels):
         keys = [Line2D([], [], **_style(i)) for i in range(len(ways))]
         key = foot_legend(figure, left, keys, [names.literal(_said(way, every)) for way in ways], 2)
         hover.mark_legend(key, ways)
+        if _only_bounded(every):
+            figure.text((WIDTH - right) / WIDTH, 0.12 / figure.get_figheight(),
+                        "stable: the solution stays bounded;\nits error is not expected to fall", ha="right", va="bottom",
+                        fontsize=9.5, color=GRAY)
         return figure
 
 

@@ -52,8 +52,8 @@ def _tasks(studies, benches):
     styles = registry.styles(studies)
     for study in studies:
         yield [study.file], (registry.drawings, study, _looks(styles, [study]))
-    for scene, group in run_time.scenes(studies).items():
-        yield [study.file for study in group], (run_times.drawings, group, _looks(styles, group), scene)
+    for group in run_time.scenes(studies).values():
+        yield [study.file for study in group], (run_times.drawings, group, _looks(styles, group))
     yield [bench.file for bench in benches], (bench_figures.drawings, benches, styles if benches else {})
 
 

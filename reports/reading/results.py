@@ -64,7 +64,9 @@ def _study(path, file):
 
 
 def _groups(file, name):
-    return [Stored(file[name][key]) for key in sorted(file[name])] if name in file else []
+    """One after another: to close a file takes long while many of its groups are at hand."""
+    within = file[name] if name in file else {}
+    return (Stored(within[key]) for key in sorted(within))
 
 
 def _finding(group):

@@ -27,14 +27,13 @@ class Stored:
         a column whose default is None is then NaN, for files of older versions lack it.
         """
         values, columns = dict(given), {}
-        for field in fields(kind):
-            if field.name in given:
-                continue
-            if field.type in ("Column", "Between"):
+        data_sets, attributes = _stored(kind)
+        for field in data_sets:
+            if field.name not in given:
                 columns[field.name] = self._column(field, next(iter(columns.values()), None))
-            elif field.type in _AS:
-                default = field.default if field.default is not MISSING else None
-                values[field.name] = _AS[field.type](self.attribute(field.name, default, field.type in _OPTIONAL))
+        for name, convert, default, optional in attributes:
+            if name not in given:
+                values[name] = convert(self.attribute(name, default, optional))
         return kind(**values, **columns)
 
     def attribute(self, name, default=None, optional=False):
@@ -66,6 +65,14 @@ class Stored:
             raise ValueError(f"{self.group.name}/{field.name}: shape {values.shape}, but {expected} entries belong to "
                              f"N of {n}")
         return values
+
+
+@lru_cache(maxsize=None)
+def _stored(kind):
+    """The fields of a dataclass that are data sets, and (name, conversion, default, may be none) of its attributes."""
+    return ([field for field in fields(kind) if field.type in ("Column", "Between")],
+            [(field.name, _AS[field.type], None if field.default is MISSING else field.default, field.type in _OPTIONAL)
+             for field in fields(kind) if field.type in _AS])
 
 
 def _attributes(group):

@@ -6,6 +6,8 @@ import math
 import numpy as np
 
 TARGETS = (1e-2, 3e-3, 1e-3)
+# Errors for which the cheapest run is named.
+WANTED = sorted((float(f"{step}e{power}") for power in range(-9, 1) for step in (1, 3)), reverse=True)
 # A time takes no part in the law of cost if its deviation is a larger part of the median, or if it is shorter: there
 # the set-up of a run shows.
 NOISE, SHORTEST = 0.05, 2e-3
@@ -63,6 +65,18 @@ def disturbed(curves):
                           for of in (lambda c: c.seconds.median, lambda c: c.seconds.deviation))
     timed = np.isfinite(seconds) & (seconds >= SHORTEST)
     return int(np.sum(timed & (deviation > NOISE * seconds))), int(np.sum(timed))
+
+
+def cheapest(runs):
+    """{run: the errors of WANTED that it is the cheapest to reach}, the largest error first; a run is (cost, error, ...)."""
+    if not runs:
+        return {}
+    efficient = frontier([run[0] for run in runs], [run[1] for run in runs])
+    best = sorted(run for run, is_efficient in zip(runs, efficient) if is_efficient)
+    picks = {}
+    for wanted in (error for error in WANTED if best and best[-1][1] <= error <= 2 * best[0][1]):
+        picks.setdefault(next(run for run in best if run[1] <= wanted), []).append(wanted)
+    return picks
 
 
 @dataclass(frozen=True)

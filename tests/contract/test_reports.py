@@ -283,7 +283,7 @@ class Figures(ReportTest):
         text = drawn(study)
         for note in ("2 of 4 levels not finite", "4 of 4 levels not finite", "1 of 4 levels zero"):
             self.assertIn(note, text)
-        self.assertIsNotNone(run_times.cost_figure([study], registry.styles([study])))
+        self.assertEqual(len(run_times.drawings([study], registry.styles([study]))), 1)
         alone = results.read_study(write(self.folder, "fig2", lost))
         self.assertIn("4 of 4 levels not finite", drawn(alone))
         self.assertIn("nan", page.html([study], {}))
@@ -299,12 +299,12 @@ class Figures(ReportTest):
         self.assertIn("max-norm difference to a finer run", drawn(study))
         self.assertIn("initial values u0", page.html([study], {}))
         # Nor do they stand beside errors over run time.
-        self.assertIsNone(run_times.cost_figure([study], registry.styles([study])))
+        self.assertEqual(run_times.drawings([study], registry.styles([study])), [])
 
     def test_a_study_without_series_has_no_figure(self):
         study = results.read_study(write(self.folder, "fig1"))
         self.assertIsNone(convergence.error_figure(study, {}))
-        self.assertIsNone(run_times.cost_figure([study], {}))
+        self.assertEqual(run_times.drawings([study], {}), [])
         self.assertIn("No series has been run", page.html([study], {}))
 
     def test_series_run_by_several_studies_are_drawn_once(self):
@@ -314,10 +314,38 @@ class Figures(ReportTest):
         chosen = run_times.cost_curves(studies)
         self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
                          [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
-        text = look.image(run_times.cost_figure(studies, registry.styles(studies)), "cost", "svg").decode()
+        drawing, = run_times.drawings(studies, registry.styles(studies))
+        text = look.image(drawing.figure, drawing.title, "svg").decode()
         for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
                      "Model I, nonlocal divergence"):
             self.assertEqual(text.count(f">{name}<"), 1, name)
+
+    def test_run_times_have_a_figure_per_scene_and_name_the_cheapest_run(self):
+        slow = series(divergence="nonlocal", seconds=1e-3 * np.array((160, 320, 640, 1280)))
+        paths = [write(self.folder, "fig1", series(), slow), write(self.folder, "fig2", series())]
+        with h5py.File(paths[1], "r+") as file:
+            file["scene"].attrs["T"] = 2.0
+        studies = [results.read_study(path) for path in paths]
+        first, second = run_times.drawings(studies, registry.styles(studies))
+        self.assertNotEqual(first.stem, second.stem)
+        # The error is 1.3 h, so 0.03 takes h = 2 pi / 320.
+        self.assertIn("of at most 0.1 in 0.0016 s (Model I, local divergence, delta = 4h, N = 160); 0.03 in 0.0032 s",
+                      first.says)
+        texts = [text.get_text() for text in first.figure.axes[0].texts]
+        self.assertEqual(texts, ["160", "320", "640", "1280"])      # of the frontier, where the slow one has no part
+
+    def test_panels_span_as_many_decades_and_curves_on_one_another_are_said(self):
+        twin = series(divergence="nonlocal", error_linf=1.302 * 2 * math.pi / np.array((160, 320, 640, 1280)))
+        narrow = series(path="delta = sqrt(h)", variable=np.array((0.2, 0.14, 0.1, 0.07)))
+        study = results.read_study(write(self.folder, "fig1", series(), twin, narrow))
+        figure = convergence.error_figure(study, registry.styles([study]))
+        spans = [panel.get_xlim()[1] / panel.get_xlim()[0] for panel in figure.axes]
+        self.assertAlmostEqual(spans[0], spans[1])
+        said = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+        self.assertIn("within 0.15 % of Model I, local", said[1])
+        self.assertNotIn("within", said[0])
+        self.assertEqual([text.get_text() for text in figure.legends[0].get_texts()],
+                         ["Model I, local divergence", "Model I, nonlocal divergence"])
 
     def test_schemes_keep_their_looks_and_no_two_share_one(self):
         schemes = [series(model=model, divergence=divergence, kernel=kernel, mu=1.5 if model == 2 else math.nan)

@@ -5,6 +5,7 @@ import re
 import unittest
 import warnings
 
+from matplotlib.path import Path
 import numpy as np
 
 from tests.result_files import ReportTest, coordinates, finding, write
@@ -104,7 +105,7 @@ class Maps(StabilityMapTest):
     def test_cells_beside_one_another_of_one_band_are_one_and_holes_are_none(self):
         def cells(values):
             panel = self.drawings(growth_map(values))[""].figure.axes[0]
-            return [path.get_extents().bounds for path in panel.collections[0].get_paths()]
+            return [Path(cell).get_extents().bounds for patch in panel.patches for cell in patch.get_path().to_polygons()]
 
         self.assertEqual(len(cells([[1.0, 9.0, 9.0, 9.0]] * 3)), 4)
         self.assertEqual(len(cells([[1.0, 9.0, 9.0, 9.0], [1.0] * 4, [1.0] * 4])), 4 + 3)
@@ -176,19 +177,26 @@ class Maps(StabilityMapTest):
 
 
 class Curves(StabilityMapTest):
-    def test_a_panel_per_lemma_and_arrangement_and_a_curve_per_scheme_and_integrator(self):
+    def test_a_panel_per_scheme_and_a_curve_per_integrator_the_least_over_the_arrangements(self):
         found = [limit(statement=f"Lemma {lemma}, sharp in the max norm", check=f"{where}, {how}",
-                       subject=f"{lemma} {who}")
+                       subject=f"{lemma} {who}", value=np.array((1.0, 1.5, 6.0)) * (2 if where == "jittered" else 1))
                  for lemma in ("2.4", "3.3") for where in ("uniform", "jittered") for how in ("forward-euler", "ssprk3")
                  for who in ("one", "two")]
         one = self.drawings(*found)["limits"]
-        self.assertEqual(len(one.figure.axes), 4)
+        self.assertEqual(titles(one.figure), ["2.4 one", "2.4 two", "3.3 one", "3.3 two"])
         for panel in one.figure.axes:
-            # The lemma's line; of two schemes the limits of two integrators and what the rows need.
-            self.assertEqual(len(panel.lines), 1 + 2 * (2 + 1))
-        for word in ("forward-euler", "ssprk3", "2.4 one", "3.3 two", "CFL number 1, printed in the lemma"):
+            # The lemma's line, what the rows need, and the limits of two integrators.
+            drawn = [list(y) for _, y in curves(panel)]
+            self.assertEqual((len(drawn), drawn.count([1.0, 1.5, 6.0])), (4, 2))
+            self.assertEqual(len(panel.collections), 2)     # up to the largest
+        for word in ("forward-euler", "ssprk3", "CFL number 1, printed in the lemmas"):
             self.assertIn(word, legend(one.figure))
         self.assertEqual(one.statements, ("Lemma 2.4, sharp in the max norm", "Lemma 3.3, sharp in the max norm"))
+
+    def test_a_limit_below_the_printed_condition_is_said(self):
+        self.assertIn("suffices for every scheme", self.drawings(limit())["limits"].says)
+        said = self.drawings(limit(value=(0.4, 1.5, 6.0)))["limits"].says
+        self.assertIn("does not suffice for Model I, inverse: the least limit is 0.4", said)
 
     def test_no_limit_is_a_mark_above_and_no_stable_step_one_below(self):
         panel, = self.drawings(limit(value=(0.0, 2.0, 1000.0)))["limits"].figure.axes

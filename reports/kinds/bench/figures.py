@@ -10,11 +10,10 @@ from drawing import axes, hover
 from drawing.frames import panel_frames
 from drawing.look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.styles import styles_of
-from drawing.timed import BARS
+from drawing.timed import BARS, EFFICIENT, mark_frontier
 from kinds.bench import tables as bench_tables
 from reading import bench_results, names, work_precision
 
-EFFICIENT = dict(linestyle="none", marker="o", markersize=13, markeredgewidth=0, color="#D3D3D3", zorder=1)
 # Positions, velocities, pair sums, source, rest: told apart by hatching too.
 FILLS = ((COLORS[1], ""), (COLORS[5], "////"), (COLORS[0], ""), (COLORS[2], "...."), ("#C8C8C8", ""))
 SLOPE = dict(color=GRAY, linewidth=0.8, zorder=2)
@@ -31,8 +30,8 @@ def drawings(benches, styles):
                     "Log-log plot of the max-norm error against run time, a panel per path. Values: tables below.",
                     "Seconds of the whole time loop with one thread: medians of runs that took turns; bars from the "
                     "minimum to the median plus twice the median absolute deviation, mostly smaller than the marker. "
-                    "On gray: the efficient frontier, the runs that no other run of the panel beats in both "
-                    "error and seconds."),
+                    "On gray, with N: the efficient frontier, the runs that no other run of the panel beats in both "
+                    "error and seconds.", says=_says(compared)),
             Drawing("bench.work", "Error against work", error_figure(compared, styles, "pairs"),
                     "Log-log plot of the max-norm error against the number of pair interactions, a panel per path.",
                     "The same errors against pair interactions, which no machine disturbs. On gray: the efficient "
@@ -54,6 +53,24 @@ def drawings(benches, styles):
 
 # ------------------------------------------------------------------------------------------------ error against cost
 
+def _says(curves):
+    """The cheapest run for each of some errors, by scene and by what the error is against."""
+    groups = {}
+    for curve, text in zip(curves, bench_tables.labels(curves)):
+        groups.setdefault((curve.scene, curve.T, curve.source), []).append((curve, text))
+    said = []
+    for (scene, T, source), group in groups.items():
+        runs = [(seconds, error, f"{text}, {curve.path}, N = {N}") for curve, text in group
+                for seconds, error, N in zip(*_points(curve, "seconds"), curve.N) if math.isfinite(seconds)]
+        found = [f"{min(errors):g} in {seconds:.2g} s ({what})"
+                 for (seconds, _, what), errors in work_precision.cheapest(runs).items()]
+        target = "local equation" if source == "local" else "nonlocal model"
+        if found:
+            said.append(f"Cheapest on {scene or 'a scene without a name'} to T = {T:.4g} for an error against the "
+                        f"{target} of at most {'; '.join(found)}.")
+    return " ".join(said)
+
+
 def error_figure(curves, styles, cost):
     """Error against `cost`, "seconds" or "pairs", a panel per path."""
     with typography():
@@ -71,7 +88,7 @@ def error_figure(curves, styles, cost):
             panel = frame.axes
             panel.set_title(names.path_math(path))
             drawn = [points[curve] for curve in group]
-            _mark_frontier(panel, drawn)
+            mark_frontier(panel, *map(np.concatenate, zip(*drawn)), np.concatenate([curve.N for curve in group]))
             for curve, (costs, errors) in zip(group, drawn):
                 style = styles[curve.scheme]
                 bars = _bars(curve.seconds, costs) if cost == "seconds" else None
@@ -79,7 +96,6 @@ def error_figure(curves, styles, cost):
                 hover.mark(drawn_curve, names_of[curve], path, N=curve.N, h=curve.h, δ=curve.delta,
                            seconds=curve.seconds.median, pairs=curve.pairs, **{"max-norm error": curve.error})
             axes.set_log_limits(panel, axes.padded(x), axes.padded(y), frame.inches)
-            panel.minorticks_off()      # they would take half of the drawing time
             if frame.first:
                 panel.set_ylabel("max-norm error at $T$")
             if frame.last:
@@ -102,12 +118,6 @@ def _bars(spread, drawn, per=1.0):
     below = np.where(np.isfinite(drawn), (spread.median - spread.minimum) / per, 0)
     above = np.where(np.isfinite(drawn), 2 * spread.deviation / per, 0)
     return [below, above]
-
-
-def _mark_frontier(panel, drawn):
-    costs, errors = (np.concatenate([one[i] for one in drawn]) for i in (0, 1))
-    efficient = work_precision.frontier(costs, errors)
-    panel.plot(costs[efficient], errors[efficient], **EFFICIENT)
 
 
 # ------------------------------------------------------------------------------------------------- where the time goes

@@ -7,9 +7,10 @@ from matplotlib.ticker import MaxNLocator
 import numpy as np
 
 from drawing import axes
-from drawing.look import COLORS, DASHES, GRAY, Drawing, mark_departing, typography
+from drawing.look import DASHES, GRAY, Drawing, mark_departing, typography
+from kinds import says
 from kinds.stability_map.findings import CAPPED, integrator_of, of_kind, ordered
-from kinds.stability_map.panels import panels
+from kinds.stability_map.panels import SHADES, panels
 
 
 def drawings(study):
@@ -23,19 +24,20 @@ def drawings(study):
         "number. Values: the result file.",
         f"Max norm of all steps up to t on uniform starting positions, {' and '.join(filter(None, horizon))}. Pale "
         "gray: what theory allows, where it allows anything finite. Curves that leave a panel above go on.",
-        tuple(ordered(found, lambda finding: finding.statement)))]
+        tuple(ordered(found, lambda finding: finding.statement)), says=f"{says.verdicts(found)}.")]
 
 
 def growth_figure(found):
     with typography():
         integrators = ordered(found, integrator_of)
         cfl = ordered(found, _cfl)
-        keys = {integrator: Line2D([], [], color=COLORS[i % len(COLORS)]) for i, integrator in enumerate(integrators)}
+        keys = {integrator: Line2D([], [], color=SHADES[i % len(SHADES)]) for i, integrator in enumerate(integrators)}
         further = {f"CFL {number}": Line2D([], [], color=GRAY, linestyle=DASHES[i % len(DASHES)])
                    for i, number in enumerate(cfl)}
         further["what theory allows"] = Line2D([], [], **_ALLOWED)
         every = np.concatenate([one.points.value[_positive(one.points.value)] for one in found])
-        low, high = axes.padded(np.clip(np.concatenate([every, [1.0, 10.0]]), 1e-2, 1e8))
+        allowed = max((upper[np.isfinite(upper)].max() for _, upper in _allowed(found)), default=1.0)
+        low, high = axes.padded(np.clip(np.concatenate([every, [1.0, 10.0]]), 1e-2, max(SHOWN, SHOWN / 30 * allowed)))
         x_limits = 0.0, max(one.points.variable.max() for one in found)
 
         def draw(panel, group):
@@ -46,7 +48,7 @@ def growth_figure(found):
                 t, value = finding.points.variable, finding.points.value
                 value = np.where(_positive(value), value, np.nan)
                 # Later curves are thinner, for many agree.
-                panel.plot(t, value, color=COLORS[i % len(COLORS)], linestyle=DASHES[k % len(DASHES)],
+                panel.plot(t, value, color=SHADES[i % len(SHADES)], linestyle=DASHES[k % len(DASHES)],
                            linewidth=2.2 - 1.2 * i / max(1, len(integrators) - 1))
                 if not finding.as_expected:
                     mark_departing(panel, t, value, 5)
@@ -64,6 +66,8 @@ def growth_figure(found):
 
         return panels(found, prepare, draw, "$t$", "max norm of all steps to $t$", [(keys, 6), (further, 6)])
 
+
+SHOWN = 1e3     # growth that a panel shows at least; the axis ends 30 times beyond what is allowed
 
 _ALLOWED = dict(color="#C4C9CE", linewidth=3.2, solid_capstyle="butt")
 

@@ -3,10 +3,12 @@
 Reading findings only: every limit and bound that is drawn is one of the result file.
 """
 
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import PolyCollection
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 from matplotlib.patheffects import Normal, Stroke
 import matplotlib
 import numpy as np
@@ -65,7 +67,21 @@ def _map_drawing(study, found, arrangement, allowed, part):
         f"monotonicity{taken_for}), and the largest CFL numbers, by bisection, at which no single step grows beyond "
         "φ(CΔt), φ its stability function, in the max norm and in the spectral radius. A line that leaves a panel "
         "above goes to a value there, or to none.",
-        tuple(f"{one}, {kind}" for one in lemmas for kind in ("map", NORM, SPECTRAL)))
+        tuple(f"{one}, {kind}" for one in lemmas for kind in ("map", NORM, SPECTRAL)),
+        says=_says([finding for finding in found if not finding.control], allowed))
+
+
+def _says(found, allowed):
+    """Up to which CFL number nothing grows beyond what is allowed, the least over all schemes and integrators."""
+    least = []
+    for finding in found:
+        beyond = band(finding.points.value, allowed) > 0
+        if beyond.any():
+            least.append((finding.points.variable[beyond].min(), f"{finding.subject}, {integrator_of(finding)}"))
+    if not least:
+        return "Nothing grows beyond what is allowed, at any CFL number and horizon of the map."
+    cfl, where = min(least)
+    return f"Growth beyond what is allowed begins at a CFL number of {cfl:.3g} ({where})."
 
 
 def map_figure(found, study, allowed):
@@ -75,20 +91,21 @@ def map_figure(found, study, allowed):
         subjects, integrators = ordered(found, subject_of), ordered(found, integrator_of)
         planes = {(subject_of(one), integrator_of(one)): (one, *plane(one)) for one in found}
         left, right, gap, between, foot = 0.75, 1.15, 0.14, 0.1, 0.95
-        blocks = [subjects[i:i + COLUMNS] for i in range(0, len(subjects), COLUMNS)]
-        width = min(3.6, (WIDTH - left - right - (len(blocks[0]) - 1) * gap) / len(blocks[0]))
+        blocks = _blocks(subjects, integrators, planes)
+        across = max(len(block) for block, _ in blocks)
+        width = min(3.6, (WIDTH - left - right - (across - 1) * gap) / across)
         tall = 1.25
         titles = {subject: wrapped(subject, width) for subject in subjects}
         above = 0.36 + 0.16 * max(title.count("\n") + 1 for title in titles.values())
-        each = above + len(integrators) * (tall + between) - between
-        figure = blank(len(blocks) * each + (len(blocks) - 1) * 0.4 + foot)
+        heights = [above + len(rows) * (tall + between) - between for _, rows in blocks]
+        figure = blank(sum(heights) + (len(blocks) - 1) * 0.4 + foot)
         x_limits = _hull(edges(ratios) for _, ratios, _, _ in planes.values())
         y_limits = _hull(edges(cfl) for _, _, cfl, _ in planes.values())
         colors, norm = _colors()
         marked = False
-        for b, block in enumerate(blocks):
-            top = figure.get_figheight() - b * (each + 0.4) - above
-            for i, integrator in enumerate(integrators):
+        for b, (block, rows) in enumerate(blocks):
+            top = figure.get_figheight() - sum(heights[:b]) - b * 0.4 - above
+            for i, integrator in enumerate(rows):
                 for k, subject in enumerate(block):
                     if (subject, integrator) not in planes:
                         continue
@@ -99,8 +116,8 @@ def map_figure(found, study, allowed):
                     marked |= _draw_limits(panel, [one for one in limits if (one.subject, parts(one)) ==
                                                    (subject, parts(finding))])
                     axes.set_log_limits(panel, x_limits, y_limits, (width, tall))
-                    panel.minorticks_off()      # they would take half of the drawing time
-                    below = any((subject, other) in planes for other in integrators[i + 1:])
+                    panel.minorticks_off()
+                    below = any((subject, other) in planes for other in rows[i + 1:])
                     panel.tick_params(direction="out")
                     # The axes of all panels are the same: ticks at the outer ones are enough.
                     if k > 0:
@@ -111,16 +128,25 @@ def map_figure(found, study, allowed):
                         panel.set_xlabel(r"$\delta/h$", labelpad=1)
                     if k == 0:
                         panel.set_ylabel(f"{names.literal(integrator)}\nCFL number", fontsize=10.5)
-                    if not any((subject, other) in planes for other in integrators[:i]):
+                    if not any((subject, other) in planes for other in rows[:i]):
                         panel.set_title(titles[subject], fontsize=11, pad=5, linespacing=1.0)
                     if not finding.as_expected:
                         panel.spines[:].set_color(DEPARTING)
                         panel.spines[:].set_linewidth(2)
-        _color_key(figure, colors, norm, left + len(blocks[0]) * (width + gap), above, each - above, allowed)
+        _color_key(figure, colors, norm, left + across * (width + gap), above, heights[0] - above, allowed)
         figure.text(left / WIDTH, 1 - 0.06 / figure.get_figheight(), f"{parts(found[0])[0]} particles", va="top",
                     fontsize=11)
         _line_key(figure, ordered(found, lemma), left, marked)
         return figure
+
+
+def _blocks(subjects, integrators, planes):
+    """[(subjects, integrators)]: subjects beside one another have planes of the same integrators, for no gap to stay."""
+    alike = {}
+    for subject in subjects:
+        rows = tuple(integrator for integrator in integrators if (subject, integrator) in planes)
+        alike.setdefault(rows, []).append(subject)
+    return [(group[i:i + COLUMNS], rows) for rows, group in alike.items() for i in range(0, len(group), COLUMNS)]
 
 
 def edges(values):
@@ -153,15 +179,18 @@ def band(values, allowed):
 def _draw_plane(panel, ratios, cfl, values, allowed, colors, norm):
     """Cells of equal color beside one another as one; a hole where there is no value."""
     x, y, bands = edges(ratios), edges(cfl), band(values, allowed)
-    corners, filled = [], []
+    corners = {}
     for k, row in enumerate(bands):
         ends = [i for i in range(1, len(row)) if row[i] != row[i - 1]]
         for start, end in zip([0, *ends], [*ends, len(row)]):
             if not np.isnan(row[start]):
-                corners.append([(x[start], y[k]), (x[end], y[k]), (x[end], y[k + 1]), (x[start], y[k + 1])])
-                filled.append(colors(norm(row[start])))
-    # Without edges viewers show seams.
-    panel.add_collection(PolyCollection(corners, facecolor=filled, edgecolor="face", linewidth=0.3), autolim=False)
+                corners.setdefault(row[start], []).append(
+                    [(x[start], y[k]), (x[end], y[k]), (x[end], y[k + 1]), (x[start], y[k + 1]), (x[start], y[k])])
+    for value, cells in corners.items():
+        color = colors(norm(value))
+        # Without edges viewers show seams.
+        panel.add_patch(PathPatch(Path.make_compound_path(*map(Path, cells)), facecolor=color, edgecolor=color,
+                                  linewidth=0.3))
 
 
 def _draw_limits(panel, limits):
@@ -197,7 +226,7 @@ _NONE = dict(linestyle="none", marker="x", markersize=5, color="black", clip_on=
 def _color_key(figure, colors, norm, left, above, height, allowed):
     bottom = figure.get_figheight() - above - height
     bar = figure.colorbar(ScalarMappable(norm, colors),
-                          cax=add_axes(figure, left + 0.05, bottom, 0.16, height))
+                          cax=add_axes(figure, left + 0.05, bottom, 0.16, height, Axes))
     bar.set_ticks(range(1, len(LEVELS) + 1), labels=[axes.tick_text(level, [1e-9]) if level > 10 else f"{level:g}"
                                                      for level in LEVELS])
     bar.minorticks_off()

@@ -3,11 +3,13 @@
 import math
 import textwrap
 
-from drawing.look import LINE, WIDTH, add_axes, blank, foot_legend
+from drawing.look import COLORS, LINE, WIDTH, add_axes, blank, foot_legend
 from kinds.stability_map.findings import ordered, subject_of
 from reading import names
 
 COLUMNS = 4             # panels beside one another
+# Of integrators, in every figure of a map; black is for what theory says.
+SHADES = (*COLORS[:4], *COLORS[5:])
 
 
 def panels(found, prepare, draw, x_label, y_label, keys, starred=frozenset()):

@@ -6,9 +6,10 @@ from matplotlib.lines import Line2D
 import numpy as np
 
 from drawing import axes
-from drawing.look import COLORS, DASHES, GRAY, MARKERS, Drawing, mark_departing, typography
+from drawing.look import DASHES, GRAY, MARKERS, Drawing, mark_departing, typography
+from kinds import says
 from kinds.stability_map.findings import integrator_of, of_kind, ordered
-from kinds.stability_map.panels import panels
+from kinds.stability_map.panels import SHADES, panels
 
 
 def drawings(study):
@@ -23,7 +24,7 @@ def drawings(study):
         "below −0.01. Filled: no entry may be negative at any of the horizons; half: at some of them; open: theory "
         "says nothing."
         + (" * Statement expected to fail, see the remarks of its findings." if any(map(_fails, found)) else ""),
-        tuple(ordered(found, lambda finding: finding.statement)))]
+        tuple(ordered(found, lambda finding: finding.statement)), says=f"{says.verdicts(found)}.")]
 
 
 def _fails(finding):
@@ -79,5 +80,5 @@ def positivity_figure(found):
 
 
 def _entry_style(i):
-    return dict(color=COLORS[i % len(COLORS)], marker=MARKERS[i % len(MARKERS)], linestyle=DASHES[i % len(DASHES)],
+    return dict(color=SHADES[i % len(SHADES)], marker=MARKERS[i % len(MARKERS)], linestyle=DASHES[i % len(DASHES)],
                 linewidth=1.2, markersize=4.6, markeredgewidth=0.9)

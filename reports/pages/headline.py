@@ -10,6 +10,7 @@ from reading import names
 from writing import markup, tables
 from writing.series import interval, labeled
 
+SHORT_WORDS = "; ".join(f"{short} {word}" for word, short in SHORT.items())
 
 
 def study_of(found):

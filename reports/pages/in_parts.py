@@ -6,7 +6,7 @@ from writing import markup
 
 FIRST = "index.html"
 # Of a part that is about one question.
-_NOTHING = dict(departing="", verdicts=(), headline="", in_numbers="", noticed=(), cases="", origin="",
+_NOTHING = dict(departing="", verdicts=(), headline="", in_numbers="", noticed=(), short_words="", cases="", origin="",
                 seeded_absent="", compared_absent="")
 _ID = re.compile(r'\sid="([^"]+)"')
 _LINK = re.compile(r'<a href="#([^"]+)"')

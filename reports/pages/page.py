@@ -68,6 +68,7 @@ def _contents(studies, drawn, benches, seeded, compared, kept):
         headline=figures.figure(first) if first else "",
         reading=headline.reading(top, bool(first and first.says)) if top else "",
         in_numbers=headline.in_numbers(top) if top else "",
+        short_words=headline.SHORT_WORDS,
         noticed=[headline.noticed(study) for study in found[questions.MISTAKES]],
         sections=[Section(question, said.get(question, ""), content) for question, content in sections.items()
                   if content],

@@ -31,8 +31,28 @@ SparseMatrix sparse_rates(PlacedScheme& placed) {
   return matrix;
 }
 
+namespace {
+
+/// Columns c .. c + count - 1 of R U. A few sums at a time do not wait for one another as one sum of many terms does.
+template <Eigen::Index count>
+void multiply_columns(const SparseMatrix& R, const Eigen::MatrixXd& U, Eigen::Index c, std::span<double> du) {
+  const Eigen::Index N = U.rows();
+  for (Eigen::Index i = 0; i < N; ++i) {
+    double sum[count] = {};
+    for (SparseMatrix::InnerIterator entry(R, i); entry; ++entry) {
+      for (Eigen::Index k = 0; k < count; ++k) sum[k] += entry.value() * U(entry.col(), c + k);
+    }
+    for (Eigen::Index k = 0; k < count; ++k) du[static_cast<std::size_t>((c + k) * N + i)] = sum[k];
+  }
+}
+
+}  // namespace
+
 void MatrixSystem::rate(double t, MatrixSystem&, std::span<double> du) const {
-  Eigen::Map<Eigen::MatrixXd>(du.data(), U_.rows(), U_.cols()) = rates_(t) * U_;
+  const SparseMatrix& R = rates_(t);
+  Eigen::Index c = 0;
+  for (; c + 4 <= U_.cols(); c += 4) multiply_columns<4>(R, U_, c, du);
+  for (; c < U_.cols(); ++c) multiply_columns<1>(R, U_, c, du);
 }
 
 void MatrixSystem::solve(double t, double scale, MatrixSystem&) {

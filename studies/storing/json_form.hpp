@@ -24,7 +24,7 @@ void put(nlohmann::ordered_json& record, const Stored& as, const T& value) {
 /// @throws nlohmann::json::exception if what stands there is of another type
 template <class T>
 void take(const nlohmann::ordered_json& record, const Stored& as, T& value) {
-  if constexpr (!std::is_same_v<T, std::vector<double>>) {
+  if constexpr (!is_field<T>) {
     const bool grouped = *as.group != '\0';
     if (grouped && !record.contains(as.group)) return;
     const nlohmann::ordered_json& place = grouped ? record.at(as.group) : record;

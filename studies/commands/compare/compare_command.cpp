@@ -31,7 +31,7 @@ Command compare_command() {
       "Compare results with older ones; exit 1 if a verdict worsened",
       {{.name = "OLD", .target = &request->before, .help = "result file or folder of result files", .required = true},
        {.name = "NEW", .target = &request->after, .help = "what to compare with it", .required = true},
-       verbose_option(&request->verbose, "print every difference"),
+       {.name = "-v,--verbose", .target = &request->verbose, .help = "print every difference"},
        {.name = "--json", .target = &request->json, .help = "print everything as one JSON object"}},
       [request](const std::string&) { return compare(*request); },
       {{"compare reports/before reports/out", "what differs between two folders, worst first"},

@@ -34,8 +34,8 @@ def drawings(study, styles):
                 f"Color maps of the max-norm error over spacing h and horizon delta {described}",
                 "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
                 "dots are the cases, thin lines those of equal error. Thick lines: refinement paths. "
-                f"{_fit_caption(study)}Asymptotic compatibility: against the nonlocal model the error falls to the left at every horizon, against the local equation toward "
-                "the lower left, however that is approached.", says=f"{verdicts(study.findings)}."),
+                f"{_fit_caption(study)}Asymptotic compatibility: against the nonlocal model the error falls to the left "
+                "at every horizon, against the local equation toward the lower left, however that is approached.", says=f"{verdicts(study.findings)}."),
         Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.evidence, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "

@@ -15,9 +15,9 @@ from reading import names, work_precision
 
 
 def scenes(studies):
-    """{name of a scene: the studies of it that have errors and run times to draw}; T only tells scenes of one name apart.
+    """{name of a scene: the studies of it that have errors and run times to draw}.
 
-    A scene without a name is called after the first study of it.
+    A scene without a name is called after the first study of it; T only tells scenes of one name apart.
     """
     found = {}
     for study in studies:

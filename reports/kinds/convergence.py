@@ -182,8 +182,9 @@ def _section(study, drawings, entries):
     if not study.findings:
         return markup.joined([Markup("<p>No series has been run.</p>\n")])
     departing = sum(not result.as_expected for result in study.findings)
-    return markup.joined((markup.outcome({"series": departing}, {"series": len(study.findings)}),
-                          *map(figures.figure, drawings), series_table(study), cases_fold(study)))
+    # Where all is as expected, the figure says so.
+    outcome = markup.outcome({"series": departing}, {"series": len(study.findings)}) if departing or not drawings else ""
+    return markup.joined((outcome, *map(figures.figure, drawings), series_table(study), cases_fold(study)))
 
 
 KIND = Kind(drawings, _section, run_times=True, noun="series")

@@ -227,7 +227,8 @@ def cuts_figure(evidence, planes):
         for (scheme, target), (h, delta, error) in planes.items():
             dash = DASHES[1] if target == "local" else "solid"
             curve, = errors.plot(delta, error[:, 0], linestyle=dash, **styles[scheme])
-            hover.mark(curve, labels[scheme], TARGETS[target], δ=delta, **{"δ/h": delta / h[0], "max-norm error": error[:, 0]})
+            hover.mark(curve, labels[scheme], TARGETS[target], δ=delta,
+                       **{"δ/h": delta / h[0], "max-norm error": error[:, 0]})
             x, order, low, high = _cuts(evidence, scheme, target)
             passing = (x >= finest) & (x <= coarsest)
             bars = np.nan_to_num(np.clip([order - low, high - order], 0, None))

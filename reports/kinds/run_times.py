@@ -14,20 +14,34 @@ from drawing.timed import EFFICIENT, error_over_seconds, mark_frontier
 from reading import names, work_precision
 
 
-def drawings(studies, styles):
-    """A figure for each scene that has errors and run times."""
-    drawn = []
-    for scene, chosen in _by_scene(cost_curves(studies)).items():
-        drawn.append(Drawing(
-            f"cost.{slug(scene)}", f"Error against run time: {scene}", cost_figure(chosen, styles),
-            f"Log-log plot of the max-norm error against the run time of every scheme on the scene {scene}, a panel per "
-            "path. Values: tables of the studies.",
-            f"Scene {scene}. Run time of the whole time loop, or a case's share of it where several advance on the same "
-            "particles: median of the repeats, bars from the fastest to the slowest. On gray, with N: the efficient "
-            "frontier, the runs that no other run of the panel beats in both error and time. Nonlocal: errors against "
-            "the nonlocal model, at a fixed horizon. Comparable only between runs of one machine. Series run by several "
-            "studies are drawn once.", says=_says(chosen)))
-    return drawn
+def scenes(studies):
+    """{name of a scene: the studies of it that have errors and run times to draw}.
+
+    A scene without a name is called after the first study of it; T only tells scenes of one name apart.
+    """
+    found = {}
+    for study in studies:
+        if study.scene.u and any(_drawable(finding.series.cases).any() for finding in study.findings):
+            found.setdefault(astuple(study.scene), []).append(study)
+    named = {}
+    for group in found.values():
+        name = group[0].scene.name or group[0].name
+        named[f"{name} to T = {group[0].scene.T:.4g}" if name in named else name] = group
+    return named
+
+
+def drawings(studies, styles, scene):
+    """The figure of the studies of one of scenes(), `scene` being its name."""
+    chosen = [(study, series) for study, series in cost_curves(studies) if _drawable(series.cases).any()]
+    return [Drawing(
+        f"cost.{slug(scene)}", f"Error against run time: {scene}", cost_figure(chosen, styles),
+        f"Log-log plot of the max-norm error against the run time of every scheme on the scene {scene}, a panel per "
+        "path. Values: tables of the studies.",
+        f"Scene {scene}. Run time of the whole time loop, or a case's share of it where several advance on the same "
+        "particles: median of the repeats, bars from the fastest to the slowest. On gray, with N: the efficient "
+        "frontier, the runs that no other run of the panel beats in both error and time. Nonlocal: errors against "
+        "the nonlocal model, at a fixed horizon. Comparable only between runs of one machine. Series run by several "
+        "studies are drawn once.", says=_says(chosen))]
 
 
 def cost_curves(studies):
@@ -43,20 +57,6 @@ def cost_curves(studies):
             if key not in curves or len(series.cases) > len(curves[key][1].cases):
                 curves[key] = (study, series)
     return list(curves.values())
-
-
-def _by_scene(chosen):
-    """{name of a scene: its curves (study, series)}, as far as they have points to draw; T only tells scenes apart."""
-    scenes = {}
-    for study, series in chosen:
-        if np.any(np.isfinite(axes.drawable(series.cases.seconds, series.cases.error_linf)[0])):
-            scenes.setdefault(astuple(study.scene), []).append((study, series))
-    named = {}
-    for curves in scenes.values():
-        study = curves[0][0]
-        name = study.scene.name or study.name
-        named[f"{name} to T = {study.scene.T:.4g}" if name in named else name] = curves
-    return named
 
 
 def cost_figure(chosen, styles):
@@ -93,10 +93,13 @@ def cost_figure(chosen, styles):
 
 def _points(all_cases):
     """(seconds, error, N) of all cases that can be drawn."""
-    seconds, errors, N = (np.concatenate([getattr(cases, name) for cases in all_cases])
-                          for name in ("seconds", "error_linf", "N"))
-    good = np.isfinite(axes.drawable(seconds, errors)[0])
-    return seconds[good], errors[good], N[good]
+    return tuple(np.concatenate([getattr(cases, name)[_drawable(cases)] for cases in all_cases])
+                 for name in ("seconds", "error_linf", "N"))
+
+
+def _drawable(cases):
+    """Which cases have an error and a run time that can be drawn."""
+    return np.isfinite(axes.drawable(cases.seconds, cases.error_linf)[0])
 
 
 def _entries(chosen, styles):

@@ -7,7 +7,6 @@ from functools import partial
 from drawing import processes
 from kinds import registry, run_times
 from kinds.bench import figures as bench_figures
-from pages import run_time
 from reading import results
 
 
@@ -52,8 +51,8 @@ def _tasks(studies, benches):
     styles = registry.styles(studies)
     for study in studies:
         yield [study.file], (registry.drawings, study, _looks(styles, [study]))
-    for group in run_time.scenes(studies).values():
-        yield [study.file for study in group], (run_times.drawings, group, _looks(styles, group))
+    for scene, group in run_times.scenes(registry.with_run_times(studies)).items():
+        yield [study.file for study in group], (run_times.drawings, group, _looks(styles, group), scene)
     yield [bench.file for bench in benches], (bench_figures.drawings, benches, styles if benches else {})
 
 

@@ -23,17 +23,9 @@ and what is slow. <code>make bench</code> measures them so that they can be comp
 def curves(studies, benches):
     """The curves whose errors and times are compared: those of benches, else those of studies."""
     measured = [curve for curve in bench_tables.compared(benches) if len(curve)]
-    return measured or [_curve(study, series) for study, series in
-                        run_times.cost_curves(registry.with_run_times(studies)) if len(series.cases)]
-
-
-def scenes(studies):
-    """{name of a scene: the studies whose run times are compared on it}; one without a name is that of its study."""
-    found = {}
-    for study in registry.with_run_times(studies):
-        if study.scene.u:
-            found.setdefault(study.scene.name or study.name, []).append(study)
-    return found
+    return measured or [_curve(study, series, scene)
+                        for scene, group in run_times.scenes(registry.with_run_times(studies)).items()
+                        for study, series in run_times.cost_curves(group) if len(series.cases)]
 
 
 def section(curves_found, costs, benches, of_benches, compared):
@@ -83,14 +75,14 @@ def _quickest(group, target):
 _REACHED = {"between": "{} s", "coarsest": "< {} s", "beyond": "~ {} s, extrapolated"}
 
 
-def _curve(study, series):
-    """A series as a curve of a bench."""
+def _curve(study, series, scene):
+    """A series as a curve of a bench. scene: its name."""
     cases = series.cases
     n = len(cases)
     spread = Spread(np.where(cases.seconds > 0, cases.seconds, np.nan), cases.seconds_low,
                     np.maximum(cases.seconds_high - cases.seconds, 0.0))
     return Curve((study.name,), series.scheme, series.path, series.source, series.delta_text, series.step_text,
-                 series.integrator, series.stepping, "", study.scene.name or study.name, study.scene.T, 1, cases.N,
+                 series.integrator, series.stepping, "", scene, study.scene.T, 1, cases.N,
                  cases.h, cases.delta, cases.steps, np.ones(n), cases.error_linf, spread, {}, cases.work_pairs,
                  cases.repeats)
 

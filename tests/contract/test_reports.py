@@ -22,7 +22,7 @@ from tests.result_files import ROOT, ReportTest, finding, of_study, series, writ
 
 from drawing import axes, look, svg
 from kinds import convergence, registry, run_times
-from pages import mutants, page
+from pages import mutants, page, run_time
 from reading import names, results
 
 
@@ -30,6 +30,12 @@ def drawn(study, kind="svg"):
     """The figure of a study as text, or as the bytes of another kind of file."""
     image = look.image(convergence.error_figure(study, registry.styles([study])), study.title, kind)
     return image.decode() if kind == "svg" else image
+
+
+def costs(studies):
+    """The figures of error against run time."""
+    return [drawing for scene, group in run_times.scenes(studies).items()
+            for drawing in run_times.drawings(group, registry.styles(studies), scene)]
 
 
 class Reading(ReportTest):
@@ -283,7 +289,7 @@ class Figures(ReportTest):
         text = drawn(study)
         for note in ("2 of 4 levels not finite", "4 of 4 levels not finite", "1 of 4 levels zero"):
             self.assertIn(note, text)
-        self.assertEqual(len(run_times.drawings([study], registry.styles([study]))), 1)
+        self.assertEqual(list(run_times.scenes([study])), ["lee-du-2019"])
         alone = results.read_study(write(self.folder, "fig2", lost))
         self.assertIn("4 of 4 levels not finite", drawn(alone))
         self.assertIn("nan", page.html([study], {}))
@@ -299,12 +305,12 @@ class Figures(ReportTest):
         self.assertIn("max-norm difference to a finer run", drawn(study))
         self.assertIn("initial values u0", page.html([study], {}))
         # Nor do they stand beside errors over run time.
-        self.assertEqual(run_times.drawings([study], registry.styles([study])), [])
+        self.assertEqual(run_times.scenes([study]), {})
 
     def test_a_study_without_series_has_no_figure(self):
         study = results.read_study(write(self.folder, "fig1"))
         self.assertIsNone(convergence.error_figure(study, {}))
-        self.assertEqual(run_times.drawings([study], {}), [])
+        self.assertEqual(run_times.scenes([study]), {})
         self.assertIn("No series has been run", page.html([study], {}))
 
     def test_series_run_by_several_studies_are_drawn_once(self):
@@ -314,7 +320,7 @@ class Figures(ReportTest):
         chosen = run_times.cost_curves(studies)
         self.assertEqual([(study.name, one.scheme.divergence, one.step_text, len(one.cases)) for study, one in chosen],
                          [("fig2", "local", "h/4", 4), ("fig5", "nonlocal", "h/4", 4), ("fig5", "local", "h/8", 4)])
-        drawing, = run_times.drawings(studies, registry.styles(studies))
+        drawing, = costs(studies)
         text = look.image(drawing.figure, drawing.title, "svg").decode()
         for name in ("Model I, local divergence, step h/4", "Model I, local divergence, step h/8",
                      "Model I, nonlocal divergence"):
@@ -326,8 +332,10 @@ class Figures(ReportTest):
         with h5py.File(paths[1], "r+") as file:
             file["scene"].attrs["T"] = 2.0
         studies = [results.read_study(path) for path in paths]
-        first, second = run_times.drawings(studies, registry.styles(studies))
-        self.assertNotEqual(first.stem, second.stem)
+        first, second = costs(studies)
+        self.assertEqual([first.stem, second.stem], ["cost.lee-du-2019", "cost.lee-du-2019-to-t-2"])
+        self.assertEqual([curve.scene for curve in run_time.curves(studies, [])],
+                         ["lee-du-2019"] * 2 + ["lee-du-2019 to T = 2"])
         # The error is 1.3 h, so 0.03 takes h = 2 pi / 320.
         self.assertIn("of at most 0.1 in 0.0016 s (Model I, local divergence, delta = 4h, N = 160); 0.03 in 0.0032 s",
                       first.says)

@@ -80,7 +80,7 @@ MISTAKES = {
     "too few particles for a study of extremes": (EXTREMES + "\n[extremes]\nN = @3\n",
                                                   "N = 3; it must be a whole number from 100 to 10000000"),
     "unknown extreme": (EXTREMES + "\n[extremes]\n@alpha = 2\n",
-                        'unknown key "alpha" in [extremes]; known keys: N, steps'),
+                        'unknown key "alpha" in [extremes]; known keys: N, steps, levels'),
 }
 
 

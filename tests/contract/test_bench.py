@@ -213,15 +213,16 @@ class WorkPrecision(BenchTest):
                 ("bench_tables.py", ("| Model I", "| 16 – 128 |", "not reached", "**Threads**"),
                  "bench_tables.py: left out of the law of cost: 1 of 1 schemes; they have fewer than five cases of 2 ms or "
                  "more with a deviation of 5 % at most\n"),
-                ("report.py", ("out/bench.html",), "")):
+                ("report.py", ("out/index.html",), "")):
             done = subprocess.run([sys.executable, ROOT / "reports" / program, self.folder / "out"], text=True,
                                   capture_output=True, check=False, timeout=60)
             self.assertEqual(done.returncode, 0, program)
             self.assertTrue(done.stderr.startswith(missing) if missing else not done.stderr, done.stderr)
             for word in words:
                 self.assertIn(word, done.stdout)
-        page = (self.folder / "out" / "bench.html").read_text(encoding="utf-8")
-        for word in ("bench.seconds.svg", "bench.work.svg", "bench.parts.svg", "bench.scaling.svg", "Seconds to reach",
+        page = (self.folder / "out" / "index.html").read_text(encoding="utf-8")
+        for word in ('data-figure="bench.seconds', 'data-figure="bench.work"', 'data-figure="bench.parts"',
+                     'data-figure="bench.scaling"', "Seconds to reach",
                      "Where the time goes", "bench-threads"):
             self.assertIn(word, page)
 

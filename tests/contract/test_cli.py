@@ -124,7 +124,7 @@ class Words(ProgramTest):
                               capture_output=True, check=False, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         html = (self.folder / "out" / "index.html").read_text(encoding="utf-8")
-        for words in ("A tiny study", "confirmed", "delta = 4h", "tiny.svg"):
+        for words in ("A tiny study", "confirmed", "delta = 4h", 'data-figure="tiny"'):
             self.assertIn(words, html)
 
 

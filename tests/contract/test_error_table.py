@@ -2,25 +2,26 @@
 
 import unittest
 
-from tests.contract.test_fit import HALVED, FitTest, power, table
+from tests.contract.test_fit import HALVED, power, table
+from tests.program import ProgramTest
 
 NOT_A_NUMBER = "not a number that a double can hold; write one such as 1.5e-3, nan or inf"
 LEVELS = [(0.1, 0.01), (0.05, 0.0025), (0.025, 0.000625)]
 
 
-class TableTest(FitTest):
+class TableTest(ProgramTest):
     def test_separators_comments_order_and_line_ends_do_not_matter(self):
-        expected = self.judged(table(power(1)), "--order", "1", code=0)
+        expected = self.fitted(table(power(1)), "--order", "1", code=0)
         rows = table(power(1)).splitlines()
         for text in (table(power(1), ";"), table(power(1), "\t"), table(power(1), "  "), table(power(1), " , "),
                      "\n".join([rows[0]] + rows[:0:-1]), "\r\n".join(rows), "\ufeff" + "\n".join(rows),
                      "# made by hand\n\n" + "\n".join(f"{row}  # so it is" for row in rows) + "\n\n",
                      table(power(1), header=('"h"', '"error"'))):
-            self.assertEqual(self.judged(text, "--order", "1", code=0), expected, text)
+            self.assertEqual(self.fitted(text, "--order", "1", code=0), expected, text)
 
     def test_columns_have_names(self):
         text = "N;L2;spacing;n\n" + "".join(f"{i};{e!r};{v!r};{1 + i}\n" for i, (v, e) in enumerate(zip(HALVED, power(2))))
-        result = self.judged(text, "--variable", "spacing", "--error", "L2", "--weight", "n", "--order", "2", code=0)
+        result = self.fitted(text, "--variable", "spacing", "--error", "L2", "--weight", "n", "--order", "2", code=0)
         self.assertEqual([level["weight"] for level in result["levels"]], [1, 2, 3, 4, 5])
         self.assert_bad_input(self.fit(text), 'table.csv:1:1: no column "h"; the columns are N, L2, spacing, n; '
                                               "name one with --variable")
@@ -59,12 +60,12 @@ class TableTest(FitTest):
                 "TeX": "\\toprule\nh & error \\\\ \\hline\n1/10 & 0.01 \\\\\n1/20 & 0.0025 \\\\[2pt]\n1/40 & 0.000625 \\\\\n\\bottomrule\n",
                 "rows of separators": "h,error\n0.1,0.01\n,\n0.05,0.0025\n0.025,0.000625\n,,,\n",
                 "# in a name": "h,# cells,error\n0.1,1,0.01 # coarse\n0.05,2,0.0025\n0.025,3,0.000625\n"}.items():
-            self.assertEqual(self.judged(text, "--order", "2", code=0)["levels"], expected, name)
+            self.assertEqual(self.fitted(text, "--order", "2", code=0)["levels"], expected, name)
 
     def test_tabs_leave_blanks_in_names_and_cells_empty(self):
         text = "mesh size\tL2 error\tnote\tmax\n0.1\t0.01\t\t1\n0.05\t0.0025\ta b\t\n0.025\t0.000625\t\t2\n"
         names = ("--variable", "mesh size", "--error")
-        self.assertEqual(len(self.judged(text, *names, "L2 error", "--order", "2", code=0)["levels"]), 3)
+        self.assertEqual(len(self.fitted(text, *names, "L2 error", "--order", "2", code=0)["levels"]), 3)
         self.assert_bad_input(self.fit(text, *names, "max"), 'table.csv:3:17: max = ""; the cell is empty; '
                                                              "write a number there or leave the row out")
 
@@ -72,7 +73,7 @@ class TableTest(FitTest):
         for text in ("1.#QNAN", "-1.#IND", "1.#INF", "-1.#INF00", "1.#J", "1.#QNAN0e+000", "-nan(ind)", "NaN", "Infinity",
                      "+Inf"):
             rows = f"h,error\n0.1,0.1\n0.05,{text}\n0.025,0.025 # last\n0.0125,0.0125\n"
-            result = self.judged(rows, "--order", "1", code=1)
+            result = self.fitted(rows, "--order", "1", code=1)
             self.assertEqual((result["verdict"], result["levels"][1]["error"]), ("unstable", None), text)
             self.assertIn("inf" if "INF" in text.upper() or "J" in text else "nan", result["reason"], text)
         for text in ("1.#X", "1.#INFx", "1.0#", "+-1", "1.0-1", "1/2/3", "e5", "1e", "1.2.3", "0x10", ".", "1e999"):

@@ -120,12 +120,11 @@ Measurement bounded_if_at_all(const Check& check, std::function<void(Finding&)> 
 
 Check check_of(const Subject& subject, const Integrator& integrator, const std::string& statement,
                const std::string& claim, const std::string& quantity, const std::string& variable) {
-  Check check =
-      subject.check(fmt::format("{}, {}", subject.scheme.model->step_lemma.name, statement), claim,
-                    {{"integrator", std::string(integrator.name)},
-                     unspoken({"lemma", std::string(subject.scheme.model->step_lemma.name)}),
-                     unspoken({"measure", quantity})},
-                    quantity);
+  Check check = subject.check(fmt::format("{}, {}", subject.scheme.model->step_lemma.name, statement), claim,
+                              {{"integrator", std::string(integrator.name)},
+                               unspoken({"lemma", std::string(subject.scheme.model->step_lemma.name)}),
+                               unspoken({"measure", quantity})},
+                              quantity);
   check.variable = variable;
   if (subject.scheme.control != nullptr) check.be_control("unstable at any step");
   return check;

@@ -133,7 +133,7 @@ def _says(chosen):
     labels = names.scheme_names(series.scheme for _, series in chosen)
     said = []
     for source, target in (("local", "local equation"), ("nonlocal", "nonlocal model")):
-        runs = [(seconds, error, f"{labels[series.scheme]}, {series.path}, N = {N}")
+        runs = [(seconds, error, f"{labels[series.scheme]}, {names.path_text(series.path)}, N = {N}")
                 for _, series in chosen if series.source == source
                 for seconds, error, N in zip(*_points([series.cases]))]
         picks = work_precision.cheapest(runs)

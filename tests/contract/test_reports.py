@@ -337,7 +337,7 @@ class Figures(ReportTest):
         self.assertEqual([curve.scene for curve in run_time.curves(studies, [])],
                          ["lee-du-2019"] * 2 + ["lee-du-2019 to T = 2"])
         # The error is 1.3 h, so 0.03 takes h = 2 pi / 320.
-        self.assertIn("of at most 0.1 in 0.0016 s (Model I, local divergence, delta = 4h, N = 160); 0.03 in 0.0032 s",
+        self.assertIn("of at most 0.1 in 0.0016 s (Model I, local divergence, δ = 4h, N = 160); 0.03 in 0.0032 s",
                       first.says)
         texts = [text.get_text() for text in first.figure.axes[0].texts]
         self.assertEqual(texts, ["160", "320", "640", "1280"])      # of the frontier, where the slow one has no part

@@ -49,7 +49,8 @@ def html(runs):
              Part("runs", "Provenance", "Which sources, compilers and machines are the runs from?",
                   _origins(runs, counts))]
     return str(markup.render("history.html", title=f"{markup.several(len(runs), 'run')} side by side",
-                             style=markup.style(), script=markup.script(), runs=runs, bad=bool(counts[history.WORSENED]),
+                             style=markup.style(), faces="", script=markup.script(),
+                             runs=runs, bad=bool(counts[history.WORSENED]),
                              said=_said(counts), parts=[part for part in parts if part.content]))
 
 

@@ -29,7 +29,7 @@ class Stages(unittest.TestCase):
 
     def test_studies_begins_with_time_and_disk_and_has_four_stages(self):
         commands = planned("studies")
-        self.assertRegex(commands.splitlines()[0], r"^echo .*some \d+ minutes .* \d GB of disk")
+        self.assertRegex(commands.splitlines()[0], r"^echo .*some \d+ minutes .* [\d.]+ GB of disk")
         self.assertEqual(re.findall(r"scripts/stage\.sh (\w+)", commands), ["installed", "built", "run", "drawn"])
 
     def test_what_takes_minutes_says_so(self):

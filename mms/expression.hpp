@@ -113,6 +113,10 @@ class Expression {
     double constant = 0.0;  ///< value of a constant
     unsigned depends = 0;   ///< bit i: depends on variable i
   };
+  /// The operations in an order in which they can be done, and the number of the one whose value the expression has, of
+  /// a vector the first component.
+  const std::vector<Node>& tape() const { return tape_; }
+  std::size_t result() const { return results_.front(); }
 
  private:
   friend class FixedPoints;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mms/code/scene_code.hpp"
 #include "mms/source.hpp"
 
 namespace acstudy {
@@ -74,5 +75,14 @@ class NonlocalSource : public Source {
   Values u_, u_t_;
   std::int64_t quadrature_points_ = 0;
 };
+
+/// The same as a statement in another language: f = what it is.
+inline code::Statement material_terms(const Scene& scene, const NonlocalModel& model, const code::Language& in) {
+  std::string f = call(in, "u_t", "x, t");
+  if (scene.standing()) return {"f", f};
+  f += " + " + call(in, "b", "x") + "*" + call(in, "u_x", "x, t");
+  if (!model.nonlocal_divergence) f += " + " + call(in, "b_x", "x") + "*" + call(in, "u", "x, t");
+  return {"f", f};
+}
 
 }  // namespace acstudy

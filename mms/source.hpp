@@ -15,6 +15,10 @@ namespace acstudy {
 
 class Source;
 struct NonlocalModel;
+namespace code {
+class Language;
+struct SourceFormula;
+}  // namespace code
 
 /// Where Model I looks: by the sign of c_hat, or to one side everywhere, which makes its source a smooth field.
 enum class Look { upwind, left, right };
@@ -28,6 +32,8 @@ struct ContinuumModel {
   /// adaptive rules. It refers to the scene.
   std::function<double(double r)> (*integrand)(const Scene&, const NonlocalModel&, double x, double t);
   bool sided;  ///< the source depends on where `Look` says
+  /// The source by a Gauss rule of so many points, as statements in another language.
+  code::SourceFormula (*formula)(const Scene&, const NonlocalModel&, std::size_t points, const code::Language&);
 };
 extern const ContinuumModel upwind_continuum;   ///< (2.8), (2.10): upwind kernel
 extern const ContinuumModel viscous_continuum;  ///< (3.7), (3.9): vanishing nonlocal viscosity

@@ -1,6 +1,8 @@
 /// @file
 /// The continuum of Model I: the upwind kernel, (2.8) and (2.10).
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "mms/line/point_fields.hpp"
@@ -55,6 +57,23 @@ std::unique_ptr<Source> source(const Scene& scene, const NonlocalModel& model, s
   return std::make_unique<UpwindSource>(scene, model, derivative_rule(model.kernel, points), look);
 }
 
+code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std::size_t points,
+                            const code::Language& in) {
+  const auto at_y = [&](const char* name, const char* arguments = "y") { return call(in, name, arguments); };
+  const std::string weight = in.entry("gauss", "weight");
+  code::Sum sum{"gauss", derivative_rule(model.kernel, points), {}};
+  sum.each.push_back(
+      {"y", fmt::format("x - {}*{}*{}", call(in, "side", "x"), in.own("delta"), in.entry("gauss", "node"))});
+  sum.each.push_back({"f",
+                      fmt::format("{}*({}*{} + {}*{})", weight, at_y("c_hat_x"), at_y("u", "y, t"), at_y("c_hat"),
+                                  at_y("u_x", "y, t")),
+                      true});
+  if (model.nonlocal_divergence && !scene.standing()) {
+    sum.each.push_back({"f", fmt::format("{}*{}*{}", weight, at_y("b_x"), call(in, "u", "x, t")), true});
+  }
+  return {{material_terms(scene, model, in)}, {sum}, {{"delta", model.delta}}};
+}
+
 /// The slopes of c_hat u and, if it is nonlocal, of b over the distance r upwind of x.
 std::function<double(double)> integrand(const Scene& scene, const NonlocalModel& model, double x, double t) {
   const PointFields at(scene, t);
@@ -75,6 +94,6 @@ std::function<double(double)> integrand(const Scene& scene, const NonlocalModel&
 
 }  // namespace
 
-const ContinuumModel upwind_continuum = {.source = source, .integrand = integrand, .sided = true};
+const ContinuumModel upwind_continuum = {.source = source, .integrand = integrand, .sided = true, .formula = formula};
 
 }  // namespace acstudy

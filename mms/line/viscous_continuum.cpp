@@ -1,6 +1,8 @@
 /// @file
 /// The continuum of Model II: vanishing nonlocal viscosity, (3.7) and (3.9).
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "mms/line/point_fields.hpp"
@@ -68,6 +70,30 @@ std::unique_ptr<Source> source(const Scene& scene, const NonlocalModel& model, s
                                          viscous_rule(model.kernel, points));
 }
 
+code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std::size_t points,
+                            const code::Language& in) {
+  const auto of = [&](const char* name, const char* arguments) { return call(in, name, arguments); };
+  const std::string weight = in.entry("gauss", "weight"), delta = in.own("delta");
+  code::Sum sum{"gauss", derivative_rule(model.kernel, points), {}};
+  code::Sum viscous{"viscous", viscous_rule(model.kernel, points), {}};
+  sum.each.push_back({"z", fmt::format("{}*{}", delta, in.entry("gauss", "node"))});
+  viscous.each.push_back({"z", fmt::format("{}*{}", delta, in.entry("viscous", "node"))});
+  for (const auto& [midpoint, y] : {std::pair("x - 0.5*z", "x - z, t"), std::pair("x + 0.5*z", "x + z, t")}) {
+    sum.each.push_back({"f",
+                        fmt::format("0.5*{}*(0.5*{}*({} + {}) + {}*{})", weight, of("c_hat_x", midpoint),
+                                    of("u", "x, t"), of("u", y), of("c_hat", midpoint), of("u_x", y)),
+                        true});
+    if (model.nonlocal_divergence && !scene.standing()) {
+      sum.each.push_back({"f", fmt::format("0.5*{}*{}*{}", weight, of("b_x", midpoint), of("u", "x, t")), true});
+    }
+  }
+  viscous.each.push_back({"f",
+                          fmt::format("(-0.5)*{}*{}*{}*({} - {})/z", delta, in.own("mu"), in.entry("viscous", "weight"),
+                                      of("u_x", "x + z, t"), of("u_x", "x - z, t")),
+                          true});
+  return {{material_terms(scene, model, in)}, {sum, viscous}, {{"delta", model.delta}, {"mu", model.mu}}};
+}
+
 /// The slopes of the pair flux and, if it is nonlocal, of b over the distance r to both sides of x, and the bend of u.
 std::function<double(double)> integrand(const Scene& scene, const NonlocalModel& model, double x, double t) {
   const PointFields at(scene, t);
@@ -91,6 +117,6 @@ std::function<double(double)> integrand(const Scene& scene, const NonlocalModel&
 
 }  // namespace
 
-const ContinuumModel viscous_continuum = {.source = source, .integrand = integrand, .sided = false};
+const ContinuumModel viscous_continuum = {.source = source, .integrand = integrand, .sided = false, .formula = formula};
 
 }  // namespace acstudy

@@ -61,6 +61,8 @@ Command fit_command();
 Command bench_command();
 Command explain_command();
 Command list_command();
+Command scene_command();
+Command table_command();
 /// Those that print what is known of all commands. @param commands  with these; has to live as long as they do
 Command completion_command(const std::vector<Command>& commands);
 Command man_command(const std::vector<Command>& commands);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -25,7 +26,35 @@ std::string on_one_line(const std::string& text) {
   return line;
 }
 
+/// Where the value of the line "key = value" begins, and the value, if it is an expression or a word that is not in
+/// quotes; else an empty one.
+std::pair<std::size_t, std::string> unquoted_value(std::string_view text, std::size_t line) {
+  for (; line > 1 && text.find('\n') != std::string_view::npos; --line) text.remove_prefix(text.find('\n') + 1);
+  text = text.substr(0, text.find_first_of("#\r\n"));
+  const std::size_t begin = text.find_first_not_of(" \t", std::min(text.find('='), text.size() - 1) + 1);
+  if (begin == std::string_view::npos) return {};
+  std::string value(text.substr(begin, text.find_last_not_of(" \t") + 1 - begin));
+  const bool other = value.find_first_of("'[{") == 0 || value.find('"') != std::string::npos;
+  const bool expression = std::any_of(value.begin(), value.end(), [](unsigned char c) {
+    return std::isalpha(c) != 0 || std::string_view("*/^()+").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  return other || !expression ? std::pair<std::size_t, std::string>{} : std::pair{begin, std::move(value)};
+}
+
 }  // namespace
+
+toml::table parse_toml(const std::string& text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    const auto at = error.source().begin;
+    if (const auto [begin, value] = unquoted_value(text, at.line); !value.empty()) {
+      Place{file, at.line, static_cast<std::uint32_t>(begin + 1)}.fail(
+          fmt::format("{} stands without quotes; put it in quotes: {}", value, in_quotes(value)));
+    }
+    Place{file, at.line, at.column}.fail("not TOML: " + std::string(error.description()));
+  }
+}
 
 std::string Place::text(const std::string& message) const {
   return fmt::format("{}:{}:{}: {}", file, line, column, on_one_line(message));

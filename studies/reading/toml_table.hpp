@@ -31,6 +31,9 @@ struct Place {
   Place shifted(std::size_t by) const { return {file, line, column + static_cast<std::uint32_t>(by)}; }
 };
 
+/// @throws InputError where it is not TOML. @param file  for messages
+toml::table parse_toml(const std::string& text, const std::string& file);
+
 /// A key or a table is not there that has to be.
 class MissingKey : public InputError {
  public:

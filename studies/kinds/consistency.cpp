@@ -38,11 +38,11 @@ void read_consistency(const Table& root, Study& study) {
   }
 }
 
-constexpr TableKeys tables[] = {scene_table, scheme_table, sweep_table, path_table};
+constexpr TableKeys consistency_tables[] = {scene_table, scheme_table, sweep_table, path_table};
 
 }  // namespace
 
-const Kind consistency_kind{"consistency", "truncation errors of the operators, no time stepping", tables,
+const Kind consistency_kind{"consistency", "truncation errors of the operators, no time stepping", consistency_tables,
                             read_consistency};
 
 }  // namespace acstudy

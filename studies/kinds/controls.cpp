@@ -278,7 +278,7 @@ constexpr Key control_keys[] = {
     {"scheme", "table", "the keys of a [[scheme]]: what it is a mistake in"},
     {"expect", "table", "a verdict by the name of a check", "what a right scheme does"},
 };
-constexpr TableKeys tables[] = {scene_table,
+constexpr TableKeys controls_tables[] = {scene_table,
                                 time_table,
                                 source_table,
                                 path_table,
@@ -288,6 +288,6 @@ constexpr TableKeys tables[] = {scene_table,
 
 }  // namespace
 
-const Kind controls_kind{"controls", "which check notices which deliberate mistake", tables, read_controls};
+const Kind controls_kind{"controls", "which check notices which deliberate mistake", controls_tables, read_controls};
 
 }  // namespace acstudy

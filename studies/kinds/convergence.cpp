@@ -35,10 +35,10 @@ void read_convergence(const Table& root, Study& study) {
   }
 }
 
-constexpr TableKeys tables[] = {scene_table, scheme_table, times_table, path_table, source_table};
+constexpr TableKeys convergence_tables[] = {scene_table, scheme_table, times_table, path_table, source_table};
 
 }  // namespace
 
-const Kind convergence_kind{"convergence", "errors of runs along refinement paths", tables, read_convergence};
+const Kind convergence_kind{"convergence", "errors of runs along refinement paths", convergence_tables, read_convergence};
 
 }  // namespace acstudy

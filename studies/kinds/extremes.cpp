@@ -36,10 +36,10 @@ constexpr Key extremes_keys[] = {
     {"steps", "whole number", "the largest number of steps", "1000000"},
     {"levels", "whole number", "levels of N, 4 to 7, where an order is measured", "5"},
 };
-constexpr TableKeys tables[] = {scheme_table, {"[extremes]", extremes_keys, true}};
+constexpr TableKeys extremes_tables[] = {scheme_table, {"[extremes]", extremes_keys, true}};
 
 }  // namespace
 
-const Kind extremes_kind{"extremes", "expectation and observation at the ends of every range", tables, read_extremes};
+const Kind extremes_kind{"extremes", "expectation and observation at the ends of every range", extremes_tables, read_extremes};
 
 }  // namespace acstudy

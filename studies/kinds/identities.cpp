@@ -31,10 +31,10 @@ void read_identities(const Table& root, Study& study) {
   }
 }
 
-constexpr TableKeys tables[] = {scene_table, scheme_table, sweep_table};
+constexpr TableKeys identities_tables[] = {scene_table, scheme_table, sweep_table};
 
 }  // namespace
 
-const Kind identities_kind{"identities", "what the weights satisfy, exactly or within bounds", tables, read_identities};
+const Kind identities_kind{"identities", "what the weights satisfy, exactly or within bounds", identities_tables, read_identities};
 
 }  // namespace acstudy

@@ -244,10 +244,10 @@ constexpr Key map_keys[] = {
     {"N", "list of numbers", "levels, 4 or more, coarse to fine"},
     {"sources", "list of \"local\", \"nonlocal\"", "the solutions that errors are against"},
 };
-constexpr TableKeys tables[] = {scene_table, scheme_table, time_table, source_table, {"[map]", map_keys}};
+constexpr TableKeys map_tables[] = {scene_table, scheme_table, time_table, source_table, {"[map]", map_keys}};
 
 }  // namespace
 
-const Kind map_kind{"map", "errors over the plane of horizon and spacing", tables, read_map};
+const Kind map_kind{"map", "errors over the plane of horizon and spacing", map_tables, read_map};
 
 }  // namespace acstudy

@@ -76,7 +76,7 @@ constexpr Key pollution_keys[] = {
     {"studies", "list of files", "convergence studies, relative to this file"},
     {"coarser", "whole number", "levels by which a series' case is coarser than its finest", "0"},
 };
-constexpr TableKeys tables[] = {{"[pollution]", pollution_keys}};
+constexpr TableKeys pollution_tables[] = {{"[pollution]", pollution_keys}};
 
 /// A study named by another one.  @param at  where it is named
 Study read_named(const std::string& name, const std::string& by, const Place& at) {
@@ -176,7 +176,7 @@ void read_pollution(const Table& root, Study& study) {
 
 }  // namespace
 
-const Kind pollution_kind{"pollution", "parts of the finest errors that are not of the scheme in space", tables,
+const Kind pollution_kind{"pollution", "parts of the finest errors that are not of the scheme in space", pollution_tables,
                           read_pollution};
 
 }  // namespace acstudy

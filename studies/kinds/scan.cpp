@@ -112,10 +112,10 @@ constexpr Key scan_keys[] = {
     {"every", "whole number", "judges one series in so many; 1: all"},
     {"seed", "whole number", "of noise and of the choice"},
 };
-constexpr TableKeys tables[] = {{"[scan]", scan_keys}};
+constexpr TableKeys scan_tables[] = {{"[scan]", scan_keys}};
 
 }  // namespace
 
-const Kind scan_kind{"scan", "how often verdicts are firm and wrong, and how often they decide", tables, read_scan};
+const Kind scan_kind{"scan", "how often verdicts are firm and wrong, and how often they decide", scan_tables, read_scan};
 
 }  // namespace acstudy

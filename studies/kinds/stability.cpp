@@ -51,10 +51,10 @@ constexpr Key printed_keys[] = {
     {"violated", "list of kernels",
      "those with which the condition printed in Lemma 3.3 fails, as explain prints them"},
 };
-constexpr TableKeys tables[] = {scene_table, scheme_table, sweep_table, {"[printed]", printed_keys, true}};
+constexpr TableKeys stability_tables[] = {scene_table, scheme_table, sweep_table, {"[printed]", printed_keys, true}};
 
 }  // namespace
 
-const Kind stability_kind{"stability", "max norm of a forward Euler step", tables, read_stability};
+const Kind stability_kind{"stability", "max norm of a forward Euler step", stability_tables, read_stability};
 
 }  // namespace acstudy

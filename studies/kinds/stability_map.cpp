@@ -122,7 +122,7 @@ void read_stability_map(const Table& root, Study& study) {
   for (const Subject& subject : controls) draw(subject, forward_euler);
 }
 
-constexpr Key control_keys[] = {
+constexpr Key map_control_keys[] = {
     {"name", "a control", "a scheme with a mistake, that no step keeps stable"},
     {"scheme", "table", "the keys of a [[scheme]]: what it is a mistake in"},
 };
@@ -136,15 +136,15 @@ constexpr Key growth_keys[] = {
     {"ratio", "number", "delta/h of the curves of growth in time"},
     {"cfl", "list of numbers", "a curve each"},
 };
-constexpr TableKeys tables[] = {scene_table,
+constexpr TableKeys stability_map_tables[] = {scene_table,
                                 scheme_table,
-                                {"[[control]]", control_keys, true},
+                                {"[[control]]", map_control_keys, true},
                                 {"[stability-map]", grid_keys},
                                 {"[growth]", growth_keys, true}};
 
 }  // namespace
 
-const Kind stability_map_kind{"stability-map", "where steps are stable, over CFL number and horizon", tables,
+const Kind stability_map_kind{"stability-map", "where steps are stable, over CFL number and horizon", stability_map_tables,
                               read_stability_map};
 
 }  // namespace acstudy

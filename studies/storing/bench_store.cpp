@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
-constexpr const char* format = "acstudy-bench-1";
+constexpr const char* bench_format = "acstudy-bench-1";
 
 /// Visits what a bench keeps of the result of a case: what is the same in every run, but no fields.
 template <class Result, class Visit>
@@ -33,7 +33,7 @@ void for_each_kept(Result& result, Visit&& visit) {
 }
 
 template <class Record, class Visit>
-void for_each_column(Record& sample, Visit&& visit) {
+void for_each_sample_column(Record& sample, Visit&& visit) {
   Sample::stored(sample, [&](const Stored& as, auto& value) { visit(as.name, value); });
 }
 
@@ -81,7 +81,7 @@ json case_json(const BenchCase& one) {
   json samples;
   std::map<std::string, std::vector<double>> times;
   for (const Sample& sample : one.samples) {
-    for_each_column(sample, [&]<class T>(const char* name, const T& value) {
+    for_each_sample_column(sample, [&]<class T>(const char* name, const T& value) {
       samples[name].push_back(value);
       if constexpr (std::is_same_v<T, double>) times[name].push_back(value);
     });
@@ -95,7 +95,7 @@ json case_json(const BenchCase& one) {
 }
 
 std::string bench_json(const Bench& bench, const BenchOptions& options, const Provenance& provenance, bool complete) {
-  json root = {{"format", format},
+  json root = {{"format", bench_format},
                {"complete", complete},
                {"runs", options.runs},
                {"least_seconds", options.least_seconds},
@@ -115,20 +115,20 @@ std::string bench_json(const Bench& bench, const BenchOptions& options, const Pr
   return json_form::pretty(root) + "\n";
 }
 
-void write_case(hid_t parent, const std::string& name, const BenchCase& one) {
+void write_bench_case(hid_t parent, const std::string& name, const BenchCase& one) {
   const h5::Handle group = h5::create_group(parent, name);
   const auto write = [&](const Stored& as, const auto& value) { h5::write(group, as.column(), value); };
   h5::write_text(group, "key", bench_key(one));
   h5::write_number<std::int64_t>(group, "threads", one.threads);
   one.c->stored(write);
   for_each_kept(one.result, write);
-  h5::write_columns(group, one.samples, Sample{}, [](const Sample& s, auto&& visit) { for_each_column(s, visit); });
+  h5::write_columns(group, one.samples, Sample{}, [](const Sample& s, auto&& visit) { for_each_sample_column(s, visit); });
 }
 
 std::vector<char> bench_h5(const Bench& bench, const BenchOptions& options, const Provenance& provenance,
                            bool complete) {
   const h5::Handle root = h5::create_file_in_memory("bench.h5");
-  h5::write_text(root, "format", format);
+  h5::write_text(root, "format", bench_format);
   h5::write_number<std::int64_t>(root, "complete", complete ? 1 : 0);
   h5::write_number(root, "runs", options.runs);
   h5::write_number(root, "least_seconds", options.least_seconds);
@@ -141,15 +141,15 @@ std::vector<char> bench_h5(const Bench& bench, const BenchOptions& options, cons
     for_each_attribute(bench.series[i], [&](const char* name, const auto& value) { h5::write(group, name, value); });
     h5::write_column<std::int64_t>(group, "cases", cases_of(bench.series[i], places));
   }
-  for (const auto& [i, place] : places) write_case(cases, fmt::format("{:04}", place), bench.cases[i]);
+  for (const auto& [i, place] : places) write_bench_case(cases, fmt::format("{:04}", place), bench.cases[i]);
   return h5::image(root);
 }
 
-void read_case(hid_t group, BenchCase& one) {
+void read_bench_case(hid_t group, BenchCase& one) {
   one.result.completed = true;
   for_each_kept(one.result, [&](const Stored& as, auto& value) { h5::read(group, as.column(), value); });
   one.samples.resize(h5::read_column<std::int64_t>(group, "round").size());
-  h5::read_columns(group, one.samples, [](Sample& s, auto&& visit) { for_each_column(s, visit); });
+  h5::read_columns(group, one.samples, [](Sample& s, auto&& visit) { for_each_sample_column(s, visit); });
 }
 
 }  // namespace
@@ -170,7 +170,9 @@ std::size_t take_up_bench(const fs::path& out, Bench& bench) {
   std::size_t taken = 0;
   try {
     const h5::Handle root(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open it");
-    if (h5::read_text(root, "format") != format) throw StoreError("its format is not " + std::string(format));
+    if (h5::read_text(root, "format") != bench_format) {
+      throw StoreError("its format is not " + std::string(bench_format));
+    }
     const h5::Handle origin = h5::open_group(root, "provenance");
     for (const auto& [name, value] : collect_provenance(0, "")) {
       if ((name == "machine" || name == "system") && h5::read_text(origin, name) != value) return 0;
@@ -182,7 +184,7 @@ std::size_t take_up_bench(const fs::path& out, Bench& bench) {
       const h5::Handle group = h5::open_group(cases, name);
       const auto found = wanted.find(h5::read_text(group, "key"));
       if (found == wanted.end()) continue;
-      read_case(group, *found->second);
+      read_bench_case(group, *found->second);
       ++taken;
     }
   } catch (const std::exception& error) {

@@ -13,7 +13,7 @@ namespace {
 
 /// Visits the columns of a point with their names.
 template <class P, class Visit>
-void for_each_column(P& point, Visit&& visit) {
+void for_each_point_column(P& point, Visit&& visit) {
   visit("N", point.N);
   visit("h", point.h);
   visit("delta", point.delta);
@@ -93,7 +93,7 @@ void write_verdict(hid_t group, const Finding& finding) {
 void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
   const h5::Handle group = h5::create_group(parent, group_name);
   write_verdict(group, finding);
-  h5::write_columns(group, finding.points, Point{}, [](const Point& p, auto&& visit) { for_each_column(p, visit); });
+  h5::write_columns(group, finding.points, Point{}, [](const Point& p, auto&& visit) { for_each_point_column(p, visit); });
   std::string labels;
   if (std::any_of(finding.points.begin(), finding.points.end(), [](const Point& p) { return !p.label.empty(); })) {
     for (const Point& point : finding.points) labels += point.label + "\n";
@@ -135,7 +135,7 @@ Finding read_finding(hid_t group) {
 
 void read_points(hid_t group, Finding& finding) {
   finding.points.resize(h5::read_column<double>(group, "value").size());
-  h5::read_columns(group, finding.points, [](Point& p, auto&& visit) { for_each_column(p, visit); });
+  h5::read_columns(group, finding.points, [](Point& p, auto&& visit) { for_each_point_column(p, visit); });
   std::istringstream labels(h5::read_text(group, "labels"));
   for (Point& point : finding.points) std::getline(labels, point.label);
 }

@@ -54,7 +54,7 @@ FindingRecord record_of(const std::string& study, const json& one, Finding findi
   return record;
 }
 
-CaseRecord read_case(const json& one) {
+CaseRecord case_record(const json& one) {
   CaseRecord record{.N = one.value("N", std::int64_t{0}),
                     .h = real(one.value("h", json(nullptr))),
                     .delta = real(one.value("delta", json(nullptr)))};
@@ -132,14 +132,14 @@ FindingRecord read_series(const std::string& study, const json& one, std::size_t
     add_level(finding, {c.value("N", std::int64_t{0}), h, delta, series.variable(h, delta), real(c.at("error_linf"))},
               real(c.value("solution_linf", json(nullptr))));
     texts_of(c);
-    record.cases.push_back(read_case(c));
+    record.cases.push_back(case_record(c));
   }
   if (const auto reference = one.find("reference"); reference != one.end()) {
     finding.cases->reference = {reference->at("N").get<std::int64_t>(),
                                 series.variable(real(reference->at("h")), real(reference->at("delta")))};
     ++finding.cases->run;
     texts_of(*reference);
-    record.cases.push_back(read_case(*reference));
+    record.cases.push_back(case_record(*reference));
     record.cases.back().reference = true;
   }
   return record;

@@ -1,9 +1,10 @@
 #!/bin/sh
 # Makes sure that what acstudy needs is installed.
 #
-#   scripts/setup.sh [build|report|test|browser|bench|lint]...        (default: build report)
+#   scripts/setup.sh [build|report|test|browser|others|bench|lint]...        (default: build report)
 #
 # Debian, Ubuntu: installs what is missing with apt-get, having said so; SETUP=off never installs.
+# others: what some tests compare with; without it they are skipped.
 # Elsewhere: names what is missing, with its package for Homebrew, conda-forge and Fedora.
 # What make compare compares with is not needed and never installed: on Debian octave, python3-scipy, python3-pysph.
 # Exit: 0 all there, 2 usage, 4 something is missing.
@@ -34,8 +35,10 @@ bench  benchmark      benchmark/benchmark.h                         libbenchmark
 test   Catch2         catch2/catch_test_macros.hpp,catch2/catch.hpp catch2              catch2            catch2           catch-devel
 browser Chromium      chromium                                      chromium            ungoogled-chromium -               chromium
 browser chromedriver  chromedriver                                  chromium-driver     chromedriver      python-chromedriver-binary chromedriver
-browser Selenium      @selenium                                     python3-selenium    pip:selenium      selenium         python3-selenium
+browser Selenium      @import:selenium                              python3-selenium    pip:selenium      selenium         python3-selenium
 browser npm           npm                                           npm                 node              nodejs           nodejs-npm
+others gfortran       gfortran                                      gfortran            gcc               gfortran         gcc-gfortran
+others jsonschema     @import:jsonschema                            python3-jsonschema  pip:jsonschema    jsonschema       python3-jsonschema
 lint   clang-format   clang-format                                  clang-format        clang-format      clang-format     clang-tools-extra
 END
 }
@@ -77,7 +80,7 @@ cmake_is_new_enough() {
     [ "$major" -gt 3 ] || { [ "$major" -eq 3 ] && [ "$minor" -ge 20 ]; }
 }
 
-selenium_is_there() { "$("$here/find-python.sh" 2>/dev/null)" -c "import selenium" 2>/dev/null; }
+module_is_there() { "$("$here/find-python.sh" 2>/dev/null)" -c "import $1" 2>/dev/null; }
 
 python_is_there() { "$here/find-python.sh" >/dev/null 2>&1; }
 
@@ -137,13 +140,13 @@ missing() {
         case $found in
             @compiler) compiler_is_new_enough ;;
             @cmake) cmake_is_new_enough ;;
-            @python | @selenium | */* | *.h)
+            @python | @import:* | */* | *.h)
                 if [ "${1:-}" = packages ]; then
                     case $installed in *" $package:installed "*) ;; *) false ;; esac
                 elif [ "$found" = @python ]; then
                     [ -n "$python" ]
-                elif [ "$found" = @selenium ]; then
-                    selenium_is_there
+                elif [ "${found#@import:}" != "$found" ]; then
+                    module_is_there "${found#@import:}"
                 else
                     case $absent in *" $name "*) false ;; esac
                 fi
@@ -217,8 +220,8 @@ explain_too_old() {
 [ $# -gt 0 ] || set -- build report
 for purpose; do
     case $purpose in
-        build | report | bench | test | browser | lint) ;;
-        *) say "$0: no purpose \"$purpose\"; write build, report, bench, test, browser or lint" && exit 2 ;;
+        build | report | bench | test | browser | others | lint) ;;
+        *) say "$0: no purpose \"$purpose\"; write build, report, bench, test, browser, others or lint" && exit 2 ;;
     esac
 done
 case ${SETUP:-on} in on | off) ;; *) say "SETUP = $SETUP; write SETUP=off, or leave it out" && exit 2 ;; esac

@@ -60,6 +60,8 @@ Command compare_command();
 Command fit_command();
 Command bench_command();
 Command explain_command();
+Command init_command();
+Command schema_command();
 Command list_command();
 Command scene_command();
 Command table_command();

@@ -101,7 +101,10 @@ class FunctionWriter {
       case Op::add:
       case Op::subtract: {
         const std::string a = at_least(sum, t.a);
-        return {fmt::format("{} {} {}", a, t.op == Op::add ? '+' : '-', at_least(atom, t.b)), sum};
+        // Fortran has no "a - -b".
+        const std::string b = at_least(product, t.b);
+        const std::string right = b.front() == '-' ? "(" + b + ")" : b;
+        return {fmt::format("{} {} {}", a, t.op == Op::add ? '+' : '-', right), sum};
       }
       case Op::multiply:
       case Op::divide: {

@@ -49,6 +49,8 @@ int Function::make(Op op, int a, int b) {
     case Op::multiply:
       if (is(a, 0.0) || is(b, 1.0)) return a;
       if (is(b, 0.0) || is(a, 1.0)) return b;
+      if (is(a, -1.0)) return make(Op::negate, b);
+      if (is(b, -1.0)) return make(Op::negate, a);
       break;
     case Op::divide:
       if (is(a, 0.0) || is(b, 1.0)) return a;
@@ -58,6 +60,7 @@ int Function::make(Op op, int a, int b) {
       break;
     case Op::negate:
       if (is(a, 0.0)) return a;
+      if (is(a, 1.0)) return constant(-1.0);
       break;
     default:
       break;

@@ -1,6 +1,7 @@
 #include "studies/commands/explain.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <span>
 
 #include "solver/line/particles.hpp"
+#include "studies/cases/lints.hpp"
 #include "studies/running/plan.hpp"
 
 namespace acstudy {
@@ -191,6 +193,9 @@ std::string explain(const Study& study) {
       "\n{} series, {} cases; neighbors of uniform particles, CFL at the start\n\nleft out, because nothing here needs "
       "it:\n{}",
       study.series.size(), count, left_out(study));
+  const std::vector<std::string> warnings = lints(study);
+  if (!warnings.empty())
+    out += fmt::format("\nwhat its solution cannot show:\n  - {}\n", fmt::join(warnings, "\n  - "));
   return out;
 }
 

@@ -103,7 +103,7 @@ class SceneTest(ProgramTest):
                 code = self.printed(scene, *source, "--language", language)
                 for got, wanted in zip(evaluate(code), self.expected(scene, source), strict=True):
                     scale = max(map(abs, wanted))
-                    self.assertLess(max(abs(a - b) for a, b in zip(got, wanted, strict=True)), 1e-13 * scale)
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(got, wanted, strict=True)), 1e-13 * scale)
 
     def run_on_points(self, *command):
         done = subprocess.run(command, input="".join(f"{x}\n" for x in POINTS), capture_output=True, text=True,
@@ -209,9 +209,9 @@ class SceneTest(ProgramTest):
         nonlocal_ = ["--source", "nonlocal", "--language", "c"]
         for args, message in (
                 (["lee-du-2019"], "write --language python, or --at"),
-                (["lee-du"], "unknown scene 'lee-du'"),
+                (["lee-du", "--language", "c"], 'unknown scene "lee-du"'),
                 (["no.toml", "--language", "c"], "no.toml: cannot be read"),
-                (["lee-du-2019", "--language", "pascal"], "'pascal' is none of python"),
+                (["lee-du-2019", "--language", "pascal"], '"pascal" is none of python'),
                 (["lee-du-2019", "--delta", "0.1", "--language", "c"], "add --source nonlocal"),
                 (["lee-du-2019", *nonlocal_], "needs a horizon"),
                 (["lee-du-2019", *nonlocal_, "--delta", "4"], "below half the period"),

@@ -20,21 +20,31 @@ period = "2*pi"
 T = 1
 c = "1 + cos(x)/4"                # advection velocity
 b = "1/2"                         # velocity of the particles; without it they stand still
-u = "sin(x - t)" #exact solution
+u = "sin(x - t)"                  # exact solution
 
-#What is examined; each[[scheme]] takes every path.acstudy list schemes, acstudy list kernels.
-    [[scheme]] model = 1 #upwind divergence = "local" # or "nonlocal";
-without it where particles stand still kernel = "inverse" #eta(s) = 1 / (delta s);
-or { name = "power", alpha = 0.5 }
+# What is examined; each [[scheme]] takes every path. acstudy list schemes, acstudy list kernels.
+[[scheme]]
+model = 1                         # upwind
+divergence = "local"              # or "nonlocal"; without it where particles stand still
+kernel = "inverse"                # eta(s) = 1/(delta s); or { name = "power", alpha = 0.5 }
 
-[[scheme]] model = 2 #vanishing viscosity divergence = "local" kernel = "cubic-spline"
+[[scheme]]
+model = 2                         # vanishing viscosity
+divergence = "local"
+kernel = "cubic-spline"
 
-#acstudy list integrators; step is the largest step, in h and N; "cfl" follows the bound of the scheme.
-    [time] integrator = "ssprk2" step = "h/2"
+# acstudy list integrators; step is the largest step, in h and N; "cfl" follows the bound of the scheme.
+[time]
+integrator = "ssprk2"
+step = "h/2"
 
-#How horizon and spacing go to zero : the horizon delta in h = period / N and N, the levels coarse to fine.
-    [[path]] name = "delta = 3h" delta = "3*h" N = [ 40, 80, 160, 320, 640 ] source = "local" #u solves the PDE; "nonlocal": the nonlocal model at this delta
-#expect = "confirmed" #what acstudy check demands : that theory's order is observed
+# How horizon and spacing go to zero: the horizon delta in h = period/N and N, the levels coarse to fine.
+[[path]]
+name = "delta = 3h"
+delta = "3*h"
+N = [40, 80, 160, 320, 640]
+source = "local"                  # u solves the PDE; "nonlocal": the nonlocal model at this delta
+# expect = "confirmed"            # what acstudy check demands: that theory's order is observed
 
 [[path]]
 name = "delta = sqrt(h)"
@@ -42,7 +52,7 @@ delta = "sqrt(h)"
 N = [160, 320, 640, 1280, 2560]
 source = "local"
 
-#The horizon stays : to the nonlocal model the error goes like h.
+# The horizon stays: to the nonlocal model the error goes like h.
 [[path]]
 name = "delta = 0.2"
 delta = 0.2

@@ -36,6 +36,23 @@ json words_of(std::string_view written) {
   return {{"type", "string"}, {"enum", words}};
 }
 
+json value_schema(std::string_view written);
+
+/// A kernel by its name, or as a table with its parameters.
+json kernel_schema() {
+  json properties = json::object();
+  for (const Key& key : scheme_keys) {
+    if (const std::string_view inside = "kernel."; key.name.starts_with(inside)) {
+      json& one = properties[std::string(key.name.substr(inside.size()))];
+      one = key.written == "a kernel" ? names_of(named_kernels) : value_schema(key.written);
+      one["description"] = key.meaning;
+    }
+  }
+  return {
+      {"anyOf",
+       {names_of(named_kernels), {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}}}}};
+}
+
 json value_schema(std::string_view written) {
   if (const std::string_view list = "list of "; written.starts_with(list)) {
     std::string_view one = written.substr(list.size());
@@ -53,7 +70,7 @@ json value_schema(std::string_view written) {
   if (written == "a scene") return names_of(named_scenes());
   if (written.ends_with("integrator")) return names_of(integrators);
   if (written == "a control") return names_of(named_controls());
-  if (written == "a kernel") return names_of(named_kernels);
+  if (written == "a kernel") return kernel_schema();
   if (written == "a kind") {
     json names = json::array();
     for (const Kind* kind : kinds) names.push_back(kind->name);
@@ -75,6 +92,7 @@ void add_keys(json& table, std::span<const Key> keys) {
       if (!properties.contains(outer)) properties[outer] = std::move(schema);
       continue;
     }
+    if (outer == "kernel") continue;
     json& of = properties[outer];
     if (!of.contains("anyOf")) {
       const json description = of["description"];

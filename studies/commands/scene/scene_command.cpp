@@ -170,9 +170,7 @@ Command scene_command() {
             .excludes = {"--language"}}},
           [r](const std::string&) { return print_scene(*r); },
           {{"scene lee-du-2019 --language fortran > scene.f90", "a module with c, b, u and the source of the PDE"},
-           {"scene study.toml --source nonlocal --model 1 --divergence local --kernel inverse --delta 0.1 --at x.csv "
-            "--time 1",
-            "values at points, with the source of Model I at a horizon"}}};
+           {"scene study.toml --at points.csv --time 1", "values at points, of the scene of a study"}}};
 }
 
 }  // namespace acstudy

@@ -77,14 +77,8 @@ Block worsened_block(const FindingComparison& one, bool all) {
   constexpr std::size_t most = 2;
   Block lines = sides(one, "");
   append(lines, folded(numbers_text(one.numbers), "    ", "    "));
-  Block why = folded(one.why, "    ", "    ");
-  if (!all && why.size() > most) {
-    why.resize(most);
-    std::string& last = why.back();
-    while (width_of(last) + 4 > columns(Stream::out)) last.erase(last.find_last_of(' '));
-    last += " ...";
-  }
-  append(lines, why);
+  const Block why = folded(one.why, "    ", "    ");
+  append(lines, all ? why : shortened(why, most));
   return lines;
 }
 
@@ -119,7 +113,8 @@ std::string section_text(const Section& section, std::size_t shown) {
   std::string text = "\n" + section.heading + "\n";
   for (std::size_t i = 0; i < shown; ++i) print_to(text, section.blocks[i]);
   const std::size_t left_out = section.blocks.size() - shown;
-  if (left_out > 0) text += fmt::format(shown > 0 ? "  and {} more; -v shows all\n" : "  {}; -v shows all\n", left_out);
+  if (left_out > 0)
+    text += fmt::format("  {}{}{}; -v shows all\n", shown > 0 ? "and " : "", left_out, shown > 0 ? " more" : "");
   return text;
 }
 
@@ -285,7 +280,7 @@ std::string comparison_text(const Comparison& comparison, bool all) {
                                    {heading, number_blocks(comparison)}};
   std::erase_if(sections, [](const Section& section) { return section.blocks.empty(); });
   std::string text = counts_text(comparison);
-  const std::string origin = origin_text(comparison);
+  const std::string origin = origin_text(comparison, all);
   constexpr std::size_t most = 40;  // lines of the whole
   const auto lines_of = [](const std::string& of) {
     return static_cast<std::size_t>(std::count(of.begin(), of.end(), '\n'));

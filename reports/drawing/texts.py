@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 
-from matplotlib import textpath
+from matplotlib import text, textpath
 from matplotlib.mathtext import MathTextParser
 
 
@@ -35,4 +35,6 @@ class _Formulas:
 def measure_once():
     """Makes renderers share what is known of texts; a matplotlib that asks otherwise is slower, no more."""
     shared = _Texts()
-    textpath.TextToPath = lambda: shared
+    for module in (textpath, text):     # of matplotlib 3.6 and of 3.10
+        if hasattr(module, "TextToPath"):
+            module.TextToPath = lambda: shared

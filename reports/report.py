@@ -14,6 +14,7 @@ import tempfile
 
 DEFAULT = "reports/out"
 FORMATS = ("svg", "png", "pdf")
+FRONT = "index.html"    # the page, or the first of its parts
 
 
 class UsageError(Exception):
@@ -49,7 +50,7 @@ def report(folder, files, figures=None, formats=(), parts=False):
 
     figures: a folder for the figures as files of these `formats`, or None; parts: a page for each question.
     """
-    from pages import comparison, making, mutants, page
+    from pages import comparison, history, making, mutants, page
     from reading import bench_results
     from reading.kept import Kept
 
@@ -64,14 +65,20 @@ def report(folder, files, figures=None, formats=(), parts=False):
         for one in (one for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group):
             for kind, content in one.files.items():
                 _write(figures / f"{one.stem}.{kind}", content)
-    for name, text in page.files(studies, drawn, benches, seeded, compared, parts, kept).items():
+    pages = page.files(studies, drawn, benches, seeded, compared, parts, kept)
+    if (folder / history.FILE).is_file():
+        pages[FRONT] = history.linked(pages[FRONT])
+    for name, text in pages.items():
         _write(folder / name, text.encode("utf-8"))
     kept.clear()
-    return folder / "index.html"
+    return folder / FRONT
 
 
 def against(folder, files, earlier):
-    """Writes the page of this run beside earlier ones, `earlier` being their folders, into `folder`; its path."""
+    """Writes the page of this run beside earlier ones, `earlier` being their folders, into `folder`; its path.
+
+    A front page that is there gets a link to it.
+    """
     from pages import history, making
     from reading.kept import Kept
 
@@ -84,6 +91,8 @@ def against(folder, files, earlier):
         _refuse_clashes(studies)
         runs.append(history.Run(name, tuple(studies)))
     _write(folder / history.FILE, history.html(runs).encode("utf-8"))
+    if (folder / FRONT).is_file():
+        _write(folder / FRONT, history.linked((folder / FRONT).read_text(encoding="utf-8")).encode("utf-8"))
     return folder / history.FILE
 
 

@@ -19,8 +19,8 @@ SERIES = "s:"       # begins the gid of what is drawn of a series; its key follo
 LEGEND = "l:"       # the same of what a legend shows of it
 # An identifier that matplotlib made up.
 _MADE_UP = re.compile(r"[A-Za-z0-9.]+_\d+$")
-_DECIMALS = re.compile(r"(\.\d\d)\d+")
-_ZEROS = re.compile(r"(?:\.00?|(\.\d)0)(?!\d)")
+_DECIMALS = re.compile(r"(?<=\.\d\d)\d+")
+_ZEROS = re.compile(r"\.00?(?!\d)|(?<=\.\d)0(?!\d)")
 _DRAWN_STROKE = re.compile(r"M[^A-Za-z]+[hv][^A-Za-z]+")
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _FONT = re.compile(r"(italic )?([\d.]+)px ")
@@ -158,7 +158,7 @@ class _Figure:
 
 def _rounded(text):
     """The text with its decimal numbers cut after hundredths of a point."""
-    return _ZEROS.sub(r"\1", _DECIMALS.sub(r"\1", text)) if "." in text else text
+    return _ZEROS.sub("", _DECIMALS.sub("", text)) if "." in text else text
 
 
 @lru_cache(maxsize=4096)

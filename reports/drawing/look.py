@@ -9,7 +9,7 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from drawing import hover, svg
+from drawing import hover, svg, texts
 from drawing.panel import Panel
 
 # Okabe and Ito's colors, told apart by readers of every color vision; their yellow is left out: too pale for a line.
@@ -31,6 +31,8 @@ FORMATS = ("svg", "png", "pdf")     # of files of a figure
 _METADATA = {"svg": {"Date": None}, "png": {"Software": None}, "pdf": {"CreationDate": None}}
 LEGEND = {"frameon": False, "borderaxespad": 0, "borderpad": 0, "handlelength": 3.0, "handletextpad": 0.6,
           "labelspacing": 0.55}
+
+texts.measure_once()
 
 
 @contextmanager

@@ -25,6 +25,7 @@ class Panel(Axes):
         self._shown = {"bottom": True, "left": True, "labelbottom": True, "labelleft": True}
         for axis in (self.xaxis, self.yaxis):
             axis.set_visible(False)
+            axis.reset_ticks = _nothing     # spines call it when they are placed
         for side, spine in self.spines.items():     # as ticks would do
             spine.set_transform(self._along(side in ("bottom", "top")))
 
@@ -108,6 +109,10 @@ class Panel(Axes):
                           xytext=(0, offset) if across else (offset, 0), textcoords="offset points", ha="center",
                           va="top" if across else "bottom", rotation=0 if across else 90, rotation_mode="anchor",
                           fontproperties=axis.label.get_fontproperties(), annotation_clip=False, clip_on=False)
+
+
+def _nothing():
+    """In place of what makes matplotlib's ticks."""
 
 
 def _fix(axis, ticks, labels):

@@ -20,12 +20,15 @@ from drawing import inlined
 SUBSTITUTES = "'STIX Two Text', 'Times New Roman', Times, 'Liberation Serif', 'Nimbus Roman', serif"
 _FONT = re.compile(r"'?\b(STIX\w+)'?")
 _RUN = re.compile(r'<tspan style="([^"]*)" x="([^"]*)" y="([^"]*)">([^<]*)</tspan>')
+# matplotlib 3.10 says fonts part by part, and places before the style.
+_FONT_IN_PARTS = re.compile(r"(?:font-style: (italic); )?font-size: ([\d.]+px); font-family: ([^;\"]+)")
+_PLACE_FIRST = re.compile(r'<tspan (x="[^"]*" y="[^"]*") (style="[^"]*")>')
 _FORMULA = re.compile(rf"(?:\s*{_RUN.pattern})+\s*")
 
 
 def readable(svg):
     """matplotlib's SVG as a file: its formulas in reading order, its fonts embedded and named with substitutes."""
-    svg = _FONT.sub(rf"\1, {SUBSTITUTES}", _FORMULA.sub(_reordered, svg))
+    svg = _FONT.sub(rf"\1, {SUBSTITUTES}", _in_reading_order(svg))
     return svg.replace("<defs>", f'<defs>\n  <style type="text/css">{faces(letters(svg))}</style>', 1)
 
 
@@ -37,7 +40,7 @@ def inline(svg, stem, label=""):
     white, --c-rrggbb for others; inlined.dark() has their values on a dark page. `label`: what is said in place of the
     figure.
     """
-    return inlined.compact(_FORMULA.sub(_reordered, svg), stem, f"STIXGeneral, {SUBSTITUTES}", label)
+    return inlined.compact(_in_reading_order(svg), stem, f"STIXGeneral, {SUBSTITUTES}", label)
 
 
 def letters(*svgs):
@@ -62,6 +65,12 @@ def _font(style, letters):
         cut.subset(font)
         subset.save_font(font, buffer, options)
     return base64.b64encode(buffer.getvalue()).decode("ascii")
+
+
+def _in_reading_order(svg):
+    """The SVG text with its formulas from left to right, and written as matplotlib 3.6 does."""
+    svg = _FONT_IN_PARTS.sub(lambda font: f"font: {'italic ' if font[1] else ''}{font[2]} {font[3]}", svg)
+    return _FORMULA.sub(_reordered, _PLACE_FIRST.sub(r"<tspan \2 \1>", svg))
 
 
 def _reordered(formula):

@@ -14,7 +14,6 @@ import numpy as np
 from drawing import axes, hover
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from kinds.kind import Kind
-from kinds.says import verdicts
 from reading import names
 
 # Refinement paths: name, horizon at spacing h, dashes.
@@ -35,7 +34,8 @@ def drawings(study, styles):
                 "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
                 "dots are the cases, thin lines those of equal error. Thick lines: refinement paths. "
                 f"{_fit_caption(study)}Asymptotic compatibility: against the nonlocal model the error falls to the left "
-                "at every horizon, against the local equation toward the lower left, however that is approached.", says=f"{verdicts(study.findings)}."),
+                "at every horizon, against the local equation toward the lower left, however that is approached.",
+                says=_map_says(study)),
         Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.evidence, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "
@@ -43,6 +43,18 @@ def drawings(study, styles):
                 "δ > h, and where δ is close to h parts of the error cancel, also shortly below: no order of a limit "
                 "can be read (pale). Right: error at the finest spacing; against the local equation it approaches the "
                 "distance of the two solutions, O(δ).", says=_cuts_say(study.evidence, planes))]
+
+
+def _map_says(study):
+    """The orders of the fitted surfaces; "" without any."""
+    fits = [finding.fit for finding in study.findings if finding.test == "surface" and finding.fit]
+    said = []
+    for name, variable in (("p", "h"), ("q", "δ")):
+        orders = [fit[name] for fit in fits if math.isfinite(fit.get(name, math.nan))]
+        if orders:
+            low, high = names.order(min(orders)), names.order(max(orders))
+            said.append(f"{name} = {low if low == high else f'{low} to {high}'} in {variable}")
+    return f"Over the whole plane the error has the orders {' and '.join(said)}." if said else ""
 
 
 def _cuts(evidence, scheme, target):

@@ -11,6 +11,7 @@ from writing import markup, tables
 
 MOST = 30                   # rows of numbers that changed; all of them stand below their studies
 FILE = "history.html"       # in the folder of the last run
+_LINK, _NAV_ENDS = f'<a href="{FILE}">Earlier runs</a>', "</nav>"
 SAID = {history.WORSENED: "worsened", history.IMPROVED: "improved", history.VERDICT: "other verdict",
         history.MISSING: "not in each run", history.NUMBERS: "other numbers", history.SAME: "the same"}
 # Where these differ, numbers may.
@@ -32,6 +33,11 @@ class Part:
     title: str
     asks: str
     content: Markup
+
+
+def linked(page):
+    """The text of a page of the same folder, with a link to this one in its first navigation."""
+    return page if _LINK in page else page.replace(_NAV_ENDS, _LINK + _NAV_ENDS, 1)
 
 
 def html(runs):

@@ -270,6 +270,19 @@ class Compare(ProgramTest):
         self.assertEqual(everything.count("expected confirmed"), 15)
         self.assertNotIn("more; -v", everything)
 
+        def everything_else(result):
+            many(30, "below")(result)
+            result["series"][4]["verdict"] = "confirmed"
+            for name in ("version", "numerics", "compiler", "flags", "libraries", "machine", "vectors", "system"):
+                result["provenance"][name] = " ".join([f"another {name}"] * 8)
+
+        self.new(everything_else)
+        text, _ = self.compare(expect=1)
+        for heading in ("worsened", "changed otherwise", "in one only", "orders that moved", "studies whose numbers"):
+            self.assertIn(f"\n\n{heading}", text)
+        self.assertIn("expected confirmed", text, "the worst is shown, however little room there is")
+        self.assertLessEqual(len(text.splitlines()), 40, text)
+
     def test_files_that_are_no_results(self):
         self.new()
         self.write("notes.txt", "x")

@@ -158,6 +158,8 @@ class Maps(FigureTest):
         study = self.study("map", fit, all_series=self.all_series())
         self.assertEqual(registry.with_run_times([study]), [])
         caption = error_map.drawings(study, {})[0].caption
+        self.assertEqual(error_map.drawings(study, {})[0].says,
+                         "Over the whole plane the error has the orders p = 0.98 in h and q = 1.02 in δ.")
         self.assertIn("error = (a^m + b^m)^(1/m)", caption)
         self.assertIn("plain sum a + b is larger by 300.", caption)
 

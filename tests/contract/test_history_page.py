@@ -114,6 +114,14 @@ class History(RunsTest):
         self.assertEqual(sorted(file.name for file in new.iterdir() if not file.name.startswith(".")),
                          ["history.html", "one.h5"])
         self.assertEqual([file.name for file in old.iterdir()], ["one.h5"])
+        self.run_report(new)
+        front = new / "index.html"
+        self.assertEqual(front.read_text(encoding="utf-8").count('href="history.html"'), 1, "drawn after it")
+        self.assertEqual(self.run_report(old)[0], 0)
+        self.assertNotIn("history.html", (old / "index.html").read_text(encoding="utf-8"))
+        for _ in range(2):
+            self.run_report(old, "--against", new)
+            self.assertEqual((old / "index.html").read_text(encoding="utf-8").count('href="history.html"'), 1)
         for arguments, said in (((new, "--against", self.folder / "none"), "no such folder"),
                                 ((new, "--against", old, "--folder"), "leave out --figures and --folder"),
                                 ((new, "--against", self.folder), "no result file (*.h5) in it")):

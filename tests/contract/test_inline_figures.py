@@ -2,13 +2,16 @@
 
 import re
 import unittest
+from unittest import mock
 from xml.etree import ElementTree
 
 from tests.result_files import ReportTest  # puts reports/ on the path
 
 import numpy as np
 
-from drawing import inlined, look, svg
+from matplotlib import _mathtext, axis
+
+from drawing import hover, inlined, look, svg
 
 
 def drawn(stem="fig1.cuts", draw=lambda panel: None):
@@ -76,6 +79,19 @@ class Inline(ReportTest):
         for text in ElementTree.fromstring(drawn(draw=draw)).iter("text"):
             first = text if text.get("x") else text[0]
             self.assertTrue(0 < float(first.get("x")) < 190 and 0 < float(first.get("y")) < 144, text.attrib)
+
+    def test_what_takes_long_is_not_done_twice(self):
+        """matplotlib's own ticks are never made, and a formula is parsed once, whatever figures it is in."""
+        def draw(panel):
+            curve, = panel.plot([1, 2, 3], [1, 2, 3])
+            hover.mark(curve, "one", N=[1, 2, 3])
+            panel.set_xticks([1, 2], ["$10^{1}$", "two"])
+            panel.set_xlabel("never before: $q^{17}$")
+
+        with mock.patch.object(axis.Axis, "_get_tick", side_effect=AssertionError("a tick was made")):
+            first = drawn(draw=draw)
+        with mock.patch.object(_mathtext.Parser, "parse", side_effect=AssertionError("a formula was parsed again")):
+            self.assertEqual(drawn(draw=draw), first)
 
     def test_a_formula_reads_from_left_to_right_at_its_place(self):
         found = ElementTree.fromstring(drawn(draw=lambda panel: panel.text(1, 1, r"$\max(h,\,\delta)$", fontsize=10)))

@@ -203,6 +203,9 @@ class Page(BrowserTest):
         badge = self.run_script("const style = getComputedStyle(document.querySelector('.badge.good'));"
                                 "return [style.borderTopStyle, style.color]")
         self.assertEqual(badge, ["solid", "rgb(27, 31, 36)"])
+        heads = self.run_script("return [...document.querySelectorAll('thead th button')].map("
+                                "one => getComputedStyle(one).display)")
+        self.assertEqual(set(heads), {"contents"}, "heads of the next page would be empty")
         printed = base64.b64decode(self.command("Page.printToPDF", preferCSSPageSize=True)["data"])
         pages = len(re.findall(rb"/Type\s*/Page\b", printed))
         self.assertTrue(3 <= pages <= 25, pages)

@@ -77,14 +77,8 @@ Block worsened_block(const FindingComparison& one, bool all) {
   constexpr std::size_t most = 2;
   Block lines = sides(one, "");
   append(lines, folded(numbers_text(one.numbers), "    ", "    "));
-  Block why = folded(one.why, "    ", "    ");
-  if (!all && why.size() > most) {
-    why.resize(most);
-    std::string& last = why.back();
-    while (width_of(last) + 4 > columns(Stream::out)) last.erase(last.find_last_of(' '));
-    last += " ...";
-  }
-  append(lines, why);
+  const Block why = folded(one.why, "    ", "    ");
+  append(lines, all ? why : shortened(why, most));
   return lines;
 }
 
@@ -114,19 +108,27 @@ struct Section {
   std::vector<Block> blocks;
 };
 
-/// A heading and as many blocks as fit into a number of lines, one at least.
-std::string section_text(const Section& section, std::size_t most) {
+/// A heading, the first `shown` blocks and how many are left out.
+std::string section_text(const Section& section, std::size_t shown) {
   std::string text = "\n" + section.heading + "\n";
-  std::size_t lines = 0, shown = 0;
-  for (const Block& block : section.blocks) {
-    if (shown > 0 && lines + block.size() > most) break;
-    print_to(text, block);
-    lines += block.size();
-    ++shown;
-  }
-  if (shown < section.blocks.size())
-    text += fmt::format("  and {} more; -v shows all\n", section.blocks.size() - shown);
+  for (std::size_t i = 0; i < shown; ++i) print_to(text, section.blocks[i]);
+  const std::size_t left_out = section.blocks.size() - shown;
+  if (left_out > 0)
+    text += fmt::format("  {}{}{}; -v shows all\n", shown > 0 ? "and " : "", left_out, shown > 0 ? " more" : "");
   return text;
+}
+
+/// How many blocks of each section fit into `room` lines: in turn one of each, the first section first.
+std::vector<std::size_t> shares(const std::vector<Section>& sections, std::size_t room) {
+  std::vector<std::size_t> shown(sections.size(), 0);
+  std::vector<bool> full(sections.size(), false);
+  while (std::count(full.begin(), full.end(), false) > 0) {
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      full[i] = full[i] || shown[i] == sections[i].blocks.size() || sections[i].blocks[shown[i]].size() > room;
+      if (!full[i]) room -= sections[i].blocks[shown[i]++].size();
+    }
+  }
+  return shown;
 }
 
 /// The findings that have changed in one of these ways, the worst way first.
@@ -277,12 +279,18 @@ std::string comparison_text(const Comparison& comparison, bool all) {
                                    {"orders that moved, the verdict being the same", moved_blocks(comparison)},
                                    {heading, number_blocks(comparison)}};
   std::erase_if(sections, [](const Section& section) { return section.blocks.empty(); });
-  constexpr std::size_t lines = 17;  // of all sections, so that the whole stays on a screen
   std::string text = counts_text(comparison);
-  for (const Section& section : sections) {
-    text += section_text(section, all ? std::numeric_limits<std::size_t>::max() : lines / sections.size());
-  }
-  return text + origin_text(comparison);
+  const std::string origin = origin_text(comparison, all);
+  constexpr std::size_t most = 40;  // lines of the whole
+  const auto lines_of = [](const std::string& of) {
+    return static_cast<std::size_t>(std::count(of.begin(), of.end(), '\n'));
+  };
+  // A blank line, a heading and what is left out of each section.
+  const std::size_t taken = lines_of(text) + lines_of(origin) + 3 * sections.size();
+  const std::vector<std::size_t> shown =
+      shares(sections, all ? std::numeric_limits<std::size_t>::max() : most - std::min(most, taken));
+  for (std::size_t i = 0; i < sections.size(); ++i) text += section_text(sections[i], shown[i]);
+  return text + origin;
 }
 
 }  // namespace acstudy

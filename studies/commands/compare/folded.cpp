@@ -20,4 +20,13 @@ Block folded(std::string_view text, const std::string& first, const std::string&
   return lines;
 }
 
+Block shortened(Block lines, std::size_t most) {
+  if (lines.size() <= most) return lines;
+  lines.resize(most);
+  std::string& last = lines.back();
+  while (width_of(last) + 4 > columns(Stream::out)) last.erase(last.find_last_of(' '));
+  last += " ...";
+  return lines;
+}
+
 }  // namespace acstudy

@@ -57,11 +57,14 @@ std::vector<Origin> origins(const Comparison& comparison) {
   return all;
 }
 
-std::string origin_text(const Comparison& comparison) {
+std::string origin_text(const Comparison& comparison, bool all) {
   Block lines = folded(set_text("OLD", *comparison.before), "", "     ");
   append(lines, folded(set_text("NEW", *comparison.after), "", "     "));
   std::vector<std::string> alike, causes;
-  for (const Origin& one : origins(comparison)) {
+  const std::vector<Origin> found = origins(comparison);
+  const auto differing = std::count_if(found.begin(), found.end(), [](const Origin& one) { return one.differs(); });
+  const std::size_t most = differing > 3 ? 1 : 2;  // lines of each, so that the whole stays on a screen
+  for (const Origin& one : found) {
     if (!one.differs()) {
       alike.push_back(one.name == "machine" || one.name == "compiler" || one.name == "version" || one.name == "flags"
                           ? fmt::format("{} {}", one.name, *one.before.begin())
@@ -69,8 +72,10 @@ std::string origin_text(const Comparison& comparison) {
       continue;
     }
     if (one.decides) causes.push_back(one.name);
-    append(lines, folded(fmt::format("{}: OLD {}, NEW {}", one.name, values_text(one.before), values_text(one.after)),
-                         "     ", "       "));
+    const Block said =
+        folded(fmt::format("{}: OLD {}, NEW {}", one.name, values_text(one.before), values_text(one.after)), "     ",
+               "       ");
+    append(lines, all ? said : shortened(said, most));
   }
   if (!alike.empty()) append(lines, folded(fmt::format("the same: {}", fmt::join(alike, "; ")), "     ", "       "));
   if (comparison.numbers.differ()) {

@@ -24,6 +24,7 @@ struct Origin {
 std::vector<Origin> origins(const Comparison& comparison);
 
 /// Both sets with where they come from, and what may be the cause where numbers differ.
-std::string origin_text(const Comparison& comparison);
+/// @param all  every value as a whole, however many lines it takes
+std::string origin_text(const Comparison& comparison, bool all);
 
 }  // namespace acstudy

@@ -143,17 +143,12 @@ std::string levels_of(const ValueFit& fit, const std::string& variable) {
 
 std::string block_of(const ValueFit& fit, const FitRequest& request) {
   const ValueJudgement& j = fit.judgement;
-  const std::string v = variable_of(request);
-  std::string text = levels_of(fit, v) + "\nestimates and 95 % intervals\n";
+  // The order stands in the verdict alone: here it would be that of another model, with another interval.
+  std::string text;
+  const std::string levels = fmt::format("levels {} to {}", j.first + 1, j.differences.size() + 1);
   if (!fit.values.empty()) {
-    text += line(fmt::format("{} = L + C {}^p", fit.column, v), order(j.fitted), "");
-    text += line(fmt::format("{0} = L + C {1}^p (1 + D {1}^q)", fit.column, v), order(j.corrected),
-                 std::isnan(j.corrected.D) ? "" : fmt::format("D = {:.3g}, q = {:g}", j.corrected.D, j.corrected.q));
-  }
-  text += line("order", order(j), fmt::format("levels {} to {}", j.first + 1, j.differences.size() + 1));
-  if (!fit.values.empty()) {
-    text +=
-        line("extrapolated value L", value_with_interval(j.extrapolated, j.extrapolated_low, j.extrapolated_high), "");
+    text += line("extrapolated value L", value_with_interval(j.extrapolated, j.extrapolated_low, j.extrapolated_high),
+                 levels);
   }
   const Gci& gci = j.gci;
   if (!std::isnan(gci.uncertainty)) {
@@ -168,7 +163,8 @@ std::string block_of(const ValueFit& fit, const FitRequest& request) {
                  fmt::format("safety factor {:g}, fit of {}{}, p = {:.3f}", u.safety_factor, u.expansion,
                              u.weighted ? ", weighted" : "", u.order));
   }
-  return text;
+  return levels_of(fit, variable_of(request)) +
+         (text.empty() ? "" : "\nestimates, the value with its 95 % interval\n" + text);
 }
 
 json object_of(const ValueLaw& law) {

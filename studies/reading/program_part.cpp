@@ -84,10 +84,10 @@ bool programs_alone(const Table& root) {
 
 std::shared_ptr<const OutsideProgram> read_program(const Table& scheme) {
   for (const char* const key : {"model", "divergence", "kernel", "mu"}) {
-    if (const toml::node* const node = scheme.find(key)) {
-      scheme.place(*node).fail(
-          fmt::format("{} is of a scheme of acstudy, and command names another one; leave out one or the other", key));
-    }
+    if (scheme.find(key) == nullptr) continue;
+    scheme.place(*scheme.find("command"))
+        .fail(
+            fmt::format("command stands beside {}, which is of a scheme of acstudy; leave out one or the other", key));
   }
   auto program = std::make_shared<OutsideProgram>();
   program->command = read_words(scheme, "command", command_example);

@@ -26,7 +26,7 @@ def styles_of(schemes):
     for scheme in schemes:
         if scheme in styles:
             continue
-        family = (scheme.model, scheme.kernel, scheme.alpha, scheme.mu)
+        family = (scheme.model, scheme.label, scheme.kernel, scheme.alpha, scheme.mu)
         if family not in families:
             families.append(family)
         i = len(styles)

@@ -103,7 +103,7 @@ def _identity(series):
     """What makes a curve: several studies may have asked for parts of it."""
     standing = series["motion"] == "standing"
     scheme = Scheme(model=series["model"], divergence="" if standing else series["divergence"],
-                    kernel=series["kernel"], alpha=series.get("alpha"), mu=series.get("mu"))
+                    kernel=series["kernel"], alpha=series.get("alpha"), mu=series.get("mu"), label=series.get("label", ""))
     texts = ("path", "source", "delta", "step", "integrator", "stepping", "motion", "scene", "T", "threads")
     # A scaling study shows its own numbers alone.
     return (scheme, *(series[name] for name in texts), series["study"] if is_scaling(series["study"]) else "")

@@ -37,7 +37,7 @@ def full_name(scheme):
 
 
 def model(scheme):
-    return "Model " + {1: "I", 2: "II"}.get(scheme.model, str(scheme.model))
+    return scheme.label or "Model " + {1: "I", 2: "II"}.get(scheme.model, str(scheme.model))
 
 
 def order(value, form="{:.2f}"):

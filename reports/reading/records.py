@@ -15,11 +15,12 @@ from reading.stored import Between, Column
 @dataclass(frozen=True)
 class Scheme:
     """What is discretized with what: everything of a scheme but the horizon and the steps."""
-    model: int          # 1: upwind kernel, 2: renormalized SPH with nonlocal viscosity
+    model: int          # 1: upwind kernel, 2: renormalized SPH with nonlocal viscosity, 0: an outside program
     divergence: str     # "local" | "nonlocal", empty where particles stand still
     kernel: str
     alpha: float | None  # exponent of the power kernel
     mu: float | None     # viscosity bound of Model II
+    label: str = ""      # of an outside program, which has no kernel
 
 
 @dataclass(frozen=True)

@@ -148,11 +148,12 @@ class Cost:
 def costs(curves):
     """{(scheme, steps): Cost} over all paths of a scheme with the same rule of steps.
 
-    Paths with a nonlocal source are left out: to sum it is work that depends on the horizon in another way.
+    Paths with a nonlocal source are left out: to sum it is work that depends on the horizon in another way. So are
+    outside programs, of whose work nothing is known.
     """
     groups = {}
     for curve in curves:
-        if curve.source == "local":
+        if curve.source == "local" and not curve.scheme.label:
             groups.setdefault((curve.scheme, curve.step_text, curve.integrator, curve.T), []).append(curve)
     found = {}
     for (scheme, step, *_), group in groups.items():

@@ -55,8 +55,11 @@ def _theory(result):
 
 def how_run(series):
     """How a series was run, in a line."""
-    details = [f"{series.scheme.kernel} kernel", f"{series.source} source", series.integrator,
-               f"step at most {series.step_text}"]
+    if series.scheme.label:
+        details = [f"{series.source} source", f"steps: {series.step_text}"]
+    else:
+        details = [f"{series.scheme.kernel} kernel", f"{series.source} source", series.integrator,
+                   f"step at most {series.step_text}"]
     if series.start != "uniform":
         details.append(f"start {series.start}")
     if series.scheme.alpha is not None:

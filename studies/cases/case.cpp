@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/models/control_choice.hpp"
+#include "studies/models/outside_program.hpp"
 
 namespace acstudy {
 
@@ -14,7 +15,7 @@ std::string Case::key() const {
   return fmt::format(
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
-      "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}",
+      "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}{}",
       text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""), scheme.model->number,
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
@@ -26,10 +27,13 @@ std::string Case::key() const {
       start == Start{} ? "" : fmt::format("|start={},{:.17g}", start.label(), start.smallest_gap),
       scheme.control == nullptr ? "" : fmt::format("|control={}", scheme.control->name),
       source_refinement == 1 ? "" : fmt::format("|source_points=x{}", source_refinement),
-      readable ? "|form=readable" : "");
+      readable ? "|form=readable" : "",
+      scheme.program == nullptr ? "" : fmt::format("|path={}|program={}", path, scheme.program->key()));
 }
 
 double Case::estimated_work() const {
+  // Nothing is known of a program but that it has to start, and that fine cases take longer.
+  if (scheme.program != nullptr) return 1e7 + 100.0 * static_cast<double>(N) * static_cast<double>(N);
   constexpr double of_particle = 10.0, of_step = 2000.0;
   const bool by_rows = step.bound == StepRule::Bound::rows;
   // The rows allow about the steps of particles that no pair of which is close.

@@ -46,6 +46,7 @@ struct Case {
   StepRule step = {};
   bool readable = false;              ///< run in the readable form of the scheme even where there is a vector form
   std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
+  std::string path = {};              ///< its name, which a program is told
 
   /// Its inputs that are stored case by case; what a series has in common is stored with the series.
   template <class Visit>

@@ -54,6 +54,7 @@ struct CaseResult : PartSeconds {
   bool completed = false;  ///< false: interrupted or put off, nothing else is meaningful
   std::string blow_up;     ///< how the solution left all bounds, if it did; the errors are then NaN
   std::string failure;     ///< why there is no solution for another reason, if so; the errors are then NaN
+  std::string messages;    ///< the end of what an outside program wrote to stderr
   double error_linf = 0.0;
   double solution_linf = 0.0;  ///< largest exact |u|, or the reference's, at the particles, at first or at the end
   double error_l1 = 0.0, error_l2 = 0.0;  ///< weighted by cell width, divided by the period
@@ -111,6 +112,7 @@ struct CaseResult : PartSeconds {
     visit(Stored{"error_l2", "last", given_up}, r.last.error_l2);
     visit(Stored{.name = "blow_up", .in_json = !r.blow_up.empty()}, r.blow_up);
     visit(Stored{.name = "failure", .in_json = !r.failure.empty()}, r.failure);
+    visit(Stored{.name = "stderr", .in_json = !r.messages.empty(), .timed = true}, r.messages);
     visit(Stored{.name = "x", .in_json = false}, r.x);
     visit(Stored{.name = "u", .in_json = false}, r.u);
     visit(Stored{.name = "u_exact", .in_json = false}, r.u_exact);

@@ -90,8 +90,8 @@ void unexercised_terms(const Study& study, const Fields& at, std::vector<std::st
     out.emplace_back("u does not depend on x, so there is nothing to advect; let it vary");
   }
   const auto [low, high] = std::minmax_element(at.c_hat.begin(), at.c_hat.end());
-  const bool upwind = std::any_of(study.series.begin(), study.series.end(),
-                                  [](const Series& s) { return s.scheme.model != nullptr && s.scheme.model->upwind; });
+  const bool upwind =
+      std::any_of(study.series.begin(), study.series.end(), [](const Series& s) { return s.scheme.model->upwind; });
   if (upwind && (*low >= 0.0 || *high <= 0.0) && (*low != 0.0 || *high != 0.0)) {
     out.push_back(fmt::format("c - b is nowhere {}, so an upwind scheme never looks to the {}; let it change its sign",
                               *low >= 0.0 ? "negative" : "positive", *low >= 0.0 ? "right" : "left"));
@@ -103,7 +103,7 @@ void exact_solutions(const Study& study, const Fields& at, std::vector<std::stri
   constexpr std::int64_t most_particles = 4096;
   for (const Series& series : study.series) {
     const Case& coarsest = series.cases.front();
-    if (series.scheme.model == nullptr || coarsest.N > most_particles || at.most_u_x == 0.0) continue;
+    if (series.scheme.program != nullptr || coarsest.N > most_particles || at.most_u_x == 0.0) continue;
     const auto x = uniform_positions(static_cast<std::size_t>(coarsest.N), study.scene->period());
     PlacedScheme placed(series.scheme, *study.scene, coarsest.mu, x, coarsest.delta);
     const auto source = make_source(series.scheme, *study.scene, coarsest.mu, series.nonlocal_source, coarsest.delta);

@@ -12,6 +12,7 @@
 #include "reports/judging/orders.hpp"
 #include "studies/cases/case.hpp"
 #include "studies/cases/measurement.hpp"
+#include "studies/models/outside_program.hpp"
 #include "studies/models/theory.hpp"
 
 namespace acstudy {
@@ -39,10 +40,14 @@ struct Series {
   void stored(Visit&& visit) const {
     const Case& first = cases.front();
     const auto which = [](bool nonlocal) { return std::string(nonlocal ? "nonlocal" : "local"); };
+    const bool program = scheme.program != nullptr;
     visit(Stored{"model"}, static_cast<std::int64_t>(scheme.model->number));
-    visit(Stored{"divergence"}, which(scheme.nonlocal_divergence));
+    visit(Stored{"divergence"}, program ? std::string() : which(scheme.nonlocal_divergence));
     visit(Stored{"kernel"}, scheme.kernel.name);
-    if (const auto& parameter = scheme.kernel.row().parameter) {
+    if (program) {
+      visit(Stored{"label"}, scheme.program->label);
+      visit(Stored{"command"}, scheme.program->command_line());
+    } else if (const auto& parameter = scheme.kernel.row().parameter) {
       visit(Stored{parameter->name().data()}, scheme.kernel.parameter);  // the end of a literal
     }
     if (scheme.model->viscous) visit(Stored{"mu"}, first.mu);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/models/control_choice.hpp"
+#include "studies/models/outside_program.hpp"
 
 namespace acstudy {
 
@@ -18,6 +19,9 @@ std::vector<std::vector<double>> Subject::positions(std::int64_t N) const {
 }
 
 std::vector<Coordinate> scheme_coordinates(const SchemeChoice& scheme, double mu, bool standing) {
+  if (scheme.program != nullptr) {
+    return {unspoken({"scheme", scheme.program->label}), unspoken({"command", scheme.program->command_line()})};
+  }
   std::vector<Coordinate> all = {
       {"model", static_cast<double>(scheme.model->number), fmt::format("model {}", scheme.model->number)},
       {"kernel", scheme.kernel.label()}};

@@ -11,6 +11,7 @@
 
 #include "solver/line/particles.hpp"
 #include "studies/cases/lints.hpp"
+#include "studies/models/outside_program.hpp"
 #include "studies/running/plan.hpp"
 
 namespace acstudy {
@@ -31,15 +32,20 @@ const char* text(SourceRule rule) {
 
 /// What every series of the study does without, and why.
 std::string left_out(const Study& study) {
-  const auto any = [&](auto&& predicate) { return std::any_of(study.series.begin(), study.series.end(), predicate); };
+  // What a program does without is its own affair.
+  const auto any = [&](auto&& predicate) {
+    return std::any_of(study.series.begin(), study.series.end(),
+                       [&](const Series& s) { return s.scheme.program == nullptr && predicate(s); });
+  };
+  const bool any_of_acstudy = any([](const Series&) { return true; });
   std::string out;
   const auto line = [&](const std::string& what) { out += "  - " + what + "\n"; };
-  if (study.scene->standing()) {
+  if (study.scene->standing() && any_of_acstudy) {
     line(
         "particle motion: b is absent, so no flow, no b terms; windows, weights and velocities once a case "
         "(weight_builds = 1)");
   }
-  if (!study.scene->solved()) {
+  if (!study.scene->solved() && any_of_acstudy) {
     line(study.scene->sourceless() ? "a source: f = 0" : "source quadrature: f is given (quadrature_points = 0)");
   } else if (any([](const Series& s) { return !s.nonlocal_source; })) {
     line("source quadrature where the source is local: f = u_t + (c u)_x (quadrature_points = 0)");
@@ -92,6 +98,24 @@ std::string explain_reference(const Series& series, const ReferenceLevel& refere
   return out;
 }
 
+/// A program, and the cases that it is told.
+std::string explain_program(const Series& series) {
+  const OutsideProgram& program = *series.scheme.program;
+  std::string out = fmt::format("  command: {}\n  timeout: {:g} s\n", program.command_line(), program.timeout);
+  for (const OutsideProgram::Input& input : program.inputs) {
+    out += fmt::format("  input: {}, checksum {:016x}\n", input.file, input.checksum);
+  }
+  const bool steps = series.cases.front().steps > 0;
+  out += fmt::format("  {:>9} {:>11} {:>11}{}\n", "N", "h", "delta",
+                     steps ? fmt::format(" {:>11} {:>9}", "dt", "steps") : "");
+  for (const Case& c : series.cases) {
+    out += fmt::format("  {:>9} {:>11.4g} {:>11.4g}{}{}\n", c.N, c.h, c.delta,
+                       steps ? fmt::format(" {:>11.4g} {:>9}", c.dt, c.steps) : "",
+                       series.against_reference && &c == &series.cases.back() ? "  reference" : "");
+  }
+  return out;
+}
+
 /// The plans of the cases of each series, as they are when all are run.
 std::map<const Series*, std::vector<Plan>> plans_of(const Study& study) {
   std::vector<const Case*> cases;
@@ -139,6 +163,7 @@ std::string explain(const Study& study) {
   std::set<std::string> said;
   for (const Series& series : study.series) {
     const Case& c = series.cases.front();
+    if (c.integrator == &own_steps && c.steps == 0) continue;
     const std::string stepping = fmt::format("time: {}, step {} at most\n", c.integrator->name, c.step.label());
     if (said.insert(stepping).second) out += stepping;
   }
@@ -157,7 +182,8 @@ std::string explain(const Study& study) {
       out += fmt::format("  dt and steps: by the lemma at the start; while running, by the {} of the moment\n",
                          first.step.bound == StepRule::Bound::lemma ? "smallest gap" : "rows of the scheme");
     }
-    if (series.nonlocal_source) out += fmt::format("  source by {}\n", text(study.source_rule));
+    if (series.nonlocal_source && series.scheme.program == nullptr)
+      out += fmt::format("  source by {}\n", text(study.source_rule));
     if (series.theory.order > 0.0) {
       out += fmt::format("  theory: order {:g} in {} ({})\n", series.theory.order, series.theory.variable,
                          series.theory.statement);
@@ -165,7 +191,12 @@ std::string explain(const Study& study) {
       out += fmt::format("  theory: the error does not vanish ({})\n", series.theory.statement);
     }
     if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
+    count += series.cases.size();
     out += fmt::format("  the gate expects: {}\n  form: {}\n", name_of(series.expected), forms_of(plans.at(&series)));
+    if (series.scheme.program != nullptr) {
+      out += explain_program(series);
+      continue;
+    }
     if (series.scheme.model->viscous) out += fmt::format("  mu = {:.6g}\n", series.cases.front().mu);
     out += fmt::format("  {:>9} {:>11} {:>11} {:>11} {:>9} {:>10} {:>6}\n", "N", "h", "delta", "dt", "steps",
                        "neighbors", "CFL");
@@ -176,7 +207,6 @@ std::string explain(const Study& study) {
                       c.steps, series.scheme.model->sides() * static_cast<std::int64_t>(per_side), c.cfl(),
                       c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "",
                       series.against_reference && &c == &series.cases.back() ? "  reference" : "");
-      ++count;
     }
     const ModelCard& model = *series.scheme.model;
     if (!model.step_lemma.enough_for_every_kernel && !vanishes_at_origin(series.scheme.kernel)) {

@@ -4,6 +4,7 @@
 
 #include "studies/cases/series_verdict.hpp"
 #include "studies/kinds/kinds.hpp"
+#include "studies/reading/program_part.hpp"
 #include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
@@ -18,15 +19,16 @@ void read_convergence(const Table& root, Study& study) {
   std::vector<PathChoice> paths;
   std::set<std::string> names;
   for (const Table& table : path_tables) {
-    paths.push_back(read_path(table, study.scene->solved()));
+    paths.push_back(read_path(table, study.scene->solved(), !programs_alone(root)));
     if (!names.insert(paths.back().name).second) {
       table.place(*table.find("name"))
           .fail(fmt::format("a second path named {}; names must differ", in_quotes(paths.back().name)));
     }
   }
-  for (const SchemeEntry& entry : read_schemes(root, *study.scene)) {
+  for (const SchemeEntry& entry : read_schemes(root, *study.scene, Programs::taken)) {
     for (std::size_t p = 0; p < paths.size(); ++p) {
-      const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
+      const toml::node* const delta = path_tables[p].find("delta");
+      const Place at_delta = delta != nullptr ? path_tables[p].place(*delta) : path_tables[p].place();
       for (const Stepping& time : steppings) {
         study.series.push_back(make_series(study, time, entry, paths[p], at_delta));
         study.measurements.push_back(series_verdict(study.series.back(), study.series.size() - 1));

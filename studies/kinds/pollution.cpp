@@ -147,6 +147,12 @@ void read_pollution(const Table& root, Study& study) {
           "studies contains \"{}\", whose scene has a reference in place of u; an error has parts only if it is known",
           *name));
     }
+    if (std::any_of(named.series.begin(), named.series.end(),
+                    [](const Series& series) { return series.scheme.program != nullptr; })) {
+      table.place(item).fail(fmt::format(
+          "studies contains \"{}\", which has a command for a scheme; its steps and source cannot be taken apart",
+          *name));
+    }
     SceneText text = named.scene->text();
     text.name.clear();
     text.u = fmt::format("{}*({})", other_unit, text.u);

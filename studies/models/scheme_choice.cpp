@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "studies/models/control_choice.hpp"
+#include "studies/models/outside_program.hpp"
 
 namespace acstudy {
 
@@ -12,6 +13,7 @@ std::string KernelChoice::label() const {
 }
 
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
+  if (scheme.program != nullptr) return scheme.program->label;
   std::string text(scheme.model->name);
   if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";
   text += ", " + scheme.kernel.label();

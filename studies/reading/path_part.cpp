@@ -119,10 +119,12 @@ void read_source(const Table& table, PathChoice& path, bool solved) {
 
 }  // namespace
 
-PathChoice read_path(const Table& table, bool solved) {
+PathChoice read_path(const Table& table, bool solved, bool needs_delta) {
   const toml::node& name = table.need("name", "name = \"delta = 4h\"");
   PathChoice path{.name = table.text("name", name, "name = \"delta = 4h\""),
-                  .delta = table.expression("delta", "delta = \"4*h\"", {"h", "N"}),
+                  .delta = needs_delta || table.find("delta") != nullptr
+                               ? table.expression("delta", "delta = \"4*h\"", {"h", "N"})
+                               : Expression("h", {"h", "N"}),
                   .N = read_levels(table),
                   .nonlocal_source = false,
                   .expect = std::nullopt,

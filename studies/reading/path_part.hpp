@@ -29,8 +29,9 @@ struct PathChoice {
   Place at_start = {};
   bool against_reference = false;  ///< the last of N is the reference and no level
 };
-/// @param solved  false: no solution is known, so errors are against a reference
-PathChoice read_path(const Table& table, bool solved = true);
+/// @param solved        false: no solution is known, so errors are against a reference
+/// @param needs_delta  false: it is h if left out
+PathChoice read_path(const Table& table, bool solved = true, bool needs_delta = true);
 
 /// A verdict that a study may expect of an order.
 Verdict read_expected(const Table& table, const toml::node& node);

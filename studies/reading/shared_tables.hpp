@@ -45,11 +45,18 @@ constexpr auto with_kernel_keys(const Key (&keys)[n]) {
 }
 
 inline constexpr auto scheme_keys = with_kernel_keys({
-    {"model", "whole number", "the model, by the number that acstudy list schemes prints"},
+    {"model", "whole number", "the model, by the number that acstudy list schemes prints", "needed without command"},
     {"divergence", "\"local\", \"nonlocal\"", "b' is exact, or made of the kernel", "needed where particles move"},
-    {"kernel", "a kernel", "by name, or as a table with its parameters"},
+    {"kernel", "a kernel", "by name, or as a table with its parameters", "needed without command"},
     {"kernel.name", "a kernel", "the name, in a table"},
     {"mu", "number, 0 or more", "viscosity bound of Model II", "max |c - b|"},
+    {"command", "list of texts", "a program and its arguments, in place of a model; convergence only",
+     "a model is run"},
+    {"label", "text", "its name; goes with command", "the command"},
+    {"order", "number, 0 or more", "that theory promises; goes with command", "needed with it"},
+    {"expect", "a verdict", "in place of what the paths expect; goes with command", "what the paths expect"},
+    {"timeout", "time", "that a case may take, \"60 s\", \"10 min\"; goes with command", "\"10 min\""},
+    {"inputs", "list of files", "that decide what it does, beside those of the command", "those of the command"},
 });
 inline constexpr TableKeys scheme_table{"[[scheme]]", scheme_keys};
 
@@ -67,7 +74,7 @@ inline constexpr TableKeys times_table{"[time] or [[time]]", time_keys};
 
 inline constexpr Key path_keys[] = {
     {"name", "text", "label; each path has its own"},
-    {"delta", "expression in h, N", "horizon, below half the period"},
+    {"delta", "expression in h, N", "horizon, below half the period", "needed unless all schemes are commands; then h"},
     {"N", "list of numbers", "levels, numbers of particles from coarse to fine"},
     {"source", "\"local\", \"nonlocal\"", "u solves the PDE, or the nonlocal model at this delta",
      "needed if u is known"},

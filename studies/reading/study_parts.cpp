@@ -8,7 +8,9 @@
 
 #include "solver/time/steps.hpp"
 #include "studies/models/control_choice.hpp"
+#include "studies/models/outside_program.hpp"
 #include "studies/models/theory.hpp"
+#include "studies/reading/program_part.hpp"
 #include "studies/reading/shared_tables.hpp"
 
 namespace acstudy {
@@ -180,8 +182,24 @@ KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
   return kernel;
 }
 
-SchemeChoice read_scheme(const Table& table, const Scene& scene) {
+SchemeChoice read_scheme(const Table& table, const Scene& scene, Programs programs) {
   SchemeChoice scheme{};
+  if (is_program(table)) {
+    if (programs == Programs::refused) {
+      table.place(*table.find("command"))
+          .fail(
+              "a study of this kind looks into the sums of its schemes, which a command keeps to itself; name it in "
+              "a study of kind \"convergence\", and write model = 1 here");
+    }
+    scheme.model = &outside_model;
+    scheme.program = read_program(table);
+    return scheme;
+  }
+  for (const char* const key : program_keys) {
+    if (const toml::node* const node = table.find(key)) {
+      table.place(*node).fail(fmt::format("{} goes with command; leave it out", key));
+    }
+  }
   scheme.model = &read_model(table);
   const toml::node* const divergence = table.find("divergence");
   if (divergence != nullptr) {
@@ -202,17 +220,21 @@ SchemeChoice read_scheme(const Table& table, const Scene& scene) {
   return scheme;
 }
 
-std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene) {
+std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene, Programs programs) {
   std::vector<SchemeEntry> entries;
   std::set<std::string> keys;
   double widest = -1.0;
   for (const Table& table : root.array_of_tables("scheme")) {
-    const SchemeChoice scheme = read_scheme(table, scene);
+    const SchemeChoice scheme = read_scheme(table, scene, programs);
     if (scheme.model->viscous && !scheme.mu && widest < 0.0) widest = scene.max_relative_velocity();
     const double mu = scheme.model->viscous ? scheme.mu.value_or(widest) : 0.0;
-    if (!keys.insert(fmt::format("{}|{}|{}|{}", scheme.model->number, scheme.nonlocal_divergence, scheme.kernel.label(),
-                                 mu))
-             .second) {
+    if (scheme.program != nullptr && !keys.insert(scheme.program->label).second) {
+      table.place().fail(fmt::format("a second scheme with the label {}; labels must differ: write label = \"...\"",
+                                     in_quotes(scheme.program->label)));
+    }
+    if (scheme.program == nullptr && !keys.insert(fmt::format("{}|{}|{}|{}", scheme.model->number,
+                                                              scheme.nonlocal_divergence, scheme.kernel.label(), mu))
+                                          .second) {
       table.place().fail("the same scheme a second time; leave one of them out");
     }
     entries.push_back({scheme, mu});
@@ -330,6 +352,7 @@ std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& stud
   study.scene = read_scene(root.sub_table("scene"), solution);
   study.source_rule = read_source_rule(root);
   const toml::node* const several = root.find("time");
+  if (several == nullptr && programs_alone(root)) return {Stepping{.integrator = &own_steps}};
   if (several == nullptr || !several->is_array()) return {read_time(root.sub_table("time"))};
 
   std::vector<Stepping> steppings;
@@ -391,6 +414,13 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
          .steps = 0,
          .start = start,
          .step = time.rule};
+  if (entry.scheme.program != nullptr) {
+    c.integrator = &own_steps;
+    if (!time.step) {
+      c.step = {.text = std::string(own_steps.name)};
+      return c;
+    }
+  }
   const double bound = time.step ? (*time.step)({h, count}) : time.rule.safety * c.lemma_bound(h * start.smallest_gap);
   if (!time.step && std::isinf(bound)) {
     time.at_step.fail(
@@ -434,12 +464,16 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
     }
     const double count = static_cast<double>(N), delta = path.delta({study.scene->period() / count, count});
     series.cases.push_back(make_case(study, time, entry, N, delta, path.nonlocal_source, at_delta, path.start));
+    series.cases.back().path = path.name;
   }
   const Case& finest = series.cases[series.levels() - 1];
   const bool fixed = finest.delta == series.cases.front().delta && series.cases.size() > 1;
   // The limit of the reference at a fixed horizon is the nonlocal model with its source.
-  series.theory = theory_for(entry.scheme, study.scene->standing(),
-                             path.nonlocal_source || (fixed && path.against_reference), fixed, finest.delta < finest.h);
+  series.theory =
+      entry.scheme.program != nullptr
+          ? theory_of(*entry.scheme.program, path, fixed)
+          : theory_for(entry.scheme, study.scene->standing(), path.nonlocal_source || (fixed && path.against_reference),
+                       fixed, finest.delta < finest.h);
   if (path.order) {
     series.theory.order = *path.order;
     series.theory.statement = "given by the study";
@@ -447,6 +481,7 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
   series.expected = time.expect
                         ? *time.expect
                         : path.expect.value_or(series.theory.order == 0.0 ? Verdict::stagnates : Verdict::confirmed);
+  if (entry.scheme.program != nullptr && entry.scheme.program->expect) series.expected = *entry.scheme.program->expect;
   return series;
 }
 

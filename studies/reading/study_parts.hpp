@@ -27,14 +27,17 @@ std::shared_ptr<const Scene> read_scene_with_advection(const Table& table);
 const ModelCard& read_model(const Table& table);
 KernelChoice read_kernel(const Table& table, const ModelCard& model);
 
+/// Whether a study can do with an outside program in place of a model.
+enum class Programs { refused, taken };
+
 /// A [[scheme]]; `standing` decides whether it needs a divergence form.
-SchemeChoice read_scheme(const Table& table, const Scene& scene);
+SchemeChoice read_scheme(const Table& table, const Scene& scene, Programs programs = Programs::refused);
 /// All of [[scheme]], each once, with the viscosity bound of each (0 unless its model is viscous).
 struct SchemeEntry {
   SchemeChoice scheme;
   double mu;
 };
-std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene);
+std::vector<SchemeEntry> read_schemes(const Table& root, const Scene& scene, Programs programs = Programs::refused);
 
 /// All of [[scheme]] on each arrangement of particles: uniform, jittered and, if particles move, moved.
 std::vector<Subject> read_subjects(const Table& root, const std::shared_ptr<const Scene>& scene);

@@ -35,7 +35,8 @@ bool has_panels(const Case& c) {
 
 /// What the sums over several particles at a time are not made for.
 bool asks_for_readable(const Case& c) {
-  return c.readable || c.integrator->implicit() || c.scheme.control != nullptr || c.step.bound == StepRule::Bound::rows;
+  return c.readable || c.scheme.program != nullptr || c.integrator->implicit() || c.scheme.control != nullptr ||
+         c.step.bound == StepRule::Bound::rows;
 }
 
 /// Velocities at midpoints, which symmetric sums on moving particles need, have to be short trigonometric series, or
@@ -64,6 +65,7 @@ bool far_takes(const Plan& plan) {
 }
 
 constexpr Form table[] = {
+    {"command", [](const Plan& plan) { return plan.c->scheme.program != nullptr; }, false},
     {"vector with far sums", far_takes, true, true},
     {"vector", vector_takes, true},
     {"readable with implicit steps", [](const Plan& plan) { return plan.c->integrator->implicit(); }, false},

@@ -19,7 +19,7 @@ struct VelocitySeries;
 struct Plan;
 
 /// A way to run cases: the sums of particles one by one (readable) or several at a time (vector), those over far
-/// neighbors by boxes where that pays (far sums), steps that are solved for (implicit).
+/// neighbors by boxes where that pays (far sums), steps that are solved for (implicit), a program of its own (command).
 struct Form {
   std::string_view name;
   bool (*takes)(const Plan&);  ///< false leaves the case to the next form of the table
@@ -27,7 +27,7 @@ struct Form {
   bool far = false;            ///< with sums over far neighbors by boxes
 };
 
-/// All forms, the fastest first. The last one, the reference, takes every case.
+/// All forms, after that of programs the fastest first. The last one, the reference, takes every case.
 std::span<const Form> forms();
 
 struct Plan {

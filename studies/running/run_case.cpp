@@ -9,6 +9,7 @@
 #include "studies/models/control_choice.hpp"
 #include "studies/running/advance.hpp"
 #include "studies/running/ensemble/ensemble.hpp"
+#include "studies/running/program/run_program.hpp"
 
 namespace acstudy {
 
@@ -50,7 +51,8 @@ std::vector<CaseResult> run_together(std::span<const Plan> plans, int threads, c
   std::string failure;
   try {
     if (plans.front().form->together) return run_ensemble(plans, threads, stop, most_seconds);
-    return {run_readable(*plans.front().c, stop)};
+    const Case& c = *plans.front().c;
+    return {c.scheme.program != nullptr ? run_program(c, stop) : run_readable(c, stop)};
   } catch (const std::domain_error& error) {
     failure = error.what();
   } catch (const std::runtime_error& error) {

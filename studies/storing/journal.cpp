@@ -13,8 +13,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "studies/cases/checksum.hpp"
 #include "studies/storing/case_h5.hpp"
-#include "studies/storing/checksum.hpp"
 #include "studies/storing/files.hpp"
 #include "studies/storing/finding_h5.hpp"
 #include "studies/storing/keys.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "studies/storing/checksum.hpp"
+#include "studies/cases/checksum.hpp"
 #include "studies/storing/provenance.hpp"
 
 namespace acstudy {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "studies/cases/series_verdict.hpp"
+#include "studies/models/outside_program.hpp"
 #include "studies/reading/input_error.hpp"
 #include "studies/storing/json_form.hpp"
 #include "studies/storing/result_record.hpp"
@@ -99,19 +100,29 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   return record;
 }
 
-FindingRecord read_series(const std::string& study, const json& one, std::size_t number) {
-  const bool standing = one.value("motion", std::string("moving")) == "standing";
+/// What a series was run with.
+SchemeChoice read_scheme(const json& one) {
+  if (one.contains("command")) {
+    OutsideProgram program{};
+    program.command = {one.at("command").get<std::string>()};
+    program.label = one.at("label").get<std::string>();
+    return {.model = &outside_model, .program = std::make_shared<OutsideProgram>(std::move(program))};
+  }
   KernelChoice kernel{one.at("kernel").get<std::string>()};
   if (const NamedKernel* const row = find_kernel(kernel.name); row != nullptr && row->parameter) {
     kernel.parameter = one.value(std::string(row->parameter->name()), 0.0);
   }
   const ModelCard* const model = find_model(one.at("model").get<std::int64_t>());
   if (model == nullptr) throw std::invalid_argument("model = " + one.at("model").dump() + " is none");
+  return {
+      .model = model, .nonlocal_divergence = one.at("divergence").get<std::string>() == "nonlocal", .kernel = kernel};
+}
+
+FindingRecord read_series(const std::string& study, const json& one, std::size_t number) {
+  const bool standing = one.value("motion", std::string("moving")) == "standing";
   const json& theory = one.at("theory");
   const Series series{
-      .scheme = {.model = model,
-                 .nonlocal_divergence = one.at("divergence").get<std::string>() == "nonlocal",
-                 .kernel = kernel},
+      .scheme = read_scheme(one),
       .path = one.at("path").get<std::string>(),
       .delta_text = one.value("delta", ""),
       .stepping = one.value("stepping", ""),

@@ -19,7 +19,8 @@ MISTAKES = {
                                'reference, u0, f'),
     "field beside a named scene": (bad((USE, USE + '\n@c = "1"')), 'unknown key "c" in [scene]; known keys: use, T'),
     "unknown key in [[scheme]]": (bad((KERNEL, KERNEL + "\n@alpha = 1")),
-                                  'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, mu'),
+                                  'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, mu, '
+                                  'command, label, order, expect, timeout, inputs'),
     "unknown key of a kernel": (kernel('{ name = "power", alpha = 0.5, @beta = 1 }'),
                                 'unknown key "beta" in kernel; known keys: name, alpha'),
     "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step, '

@@ -56,7 +56,7 @@ class Pages(ProgramTest):
         python = self.folder / "build" / "python3"
         python.write_text(f"#!/bin/sh\nexec '{sys.executable}' \"$@\"\n", encoding="utf-8")
         python.chmod(0o755)
-        for name in ("docs", "studies"):
+        for name in ("docs", "examples", "studies"):
             (self.folder / name).symlink_to(ROOT / name)
 
     def shell(self, command):

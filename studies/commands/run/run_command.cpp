@@ -33,7 +33,7 @@ int run(const std::vector<std::string>& files, const RunOptions& options, bool v
   if (options.readable) {
     for (Study& study : studies) {
       for (Series& series : study.series) {
-        for (Case& c : series.cases) c.readable = true;
+        for (Case& c : series.cases) c.readable = c.scheme.program == nullptr;
       }
     }
   }

@@ -114,7 +114,9 @@ class Runner {
     if (const auto found = earlier.cases.find(key); found != earlier.cases.end()) {
       // With --fresh it stands until the new result is there, so that an interruption loses nothing.
       result_at(place) = found->second;
-      if (!options_.fresh) {
+      // What kept a program from its work may be gone.
+      const bool again = options_.fresh || (c.scheme.program != nullptr && !found->second.failure.empty());
+      if (!again) {
         ++run_.reused;
         return;
       }
@@ -184,7 +186,8 @@ class Runner {
     // What alone takes longer than all the rest is shared out to all threads, one batch after the other.
     try {
       std::unique_lock lock(mutex_);
-      while (options_.jobs > 1 && !batches_.empty() && !stop_) {
+      const auto shares = [&](const Batch& batch) { return plans_[batch.cases.front()].form->together; };
+      while (options_.jobs > 1 && !batches_.empty() && shares(batches_.front()) && !stop_) {
         double rest = 0.0;
         for (const Batch& batch : batches_) rest += batch.work;
         const double longest = batches_.front().work;

@@ -16,7 +16,9 @@ std::string Case::key() const {
       "period={}|T={}|c={}|b={}|u={}|flow={}|model={}|divergence={}|kernel={}|alpha={:.17g}|mu={:.17g}|source={}|rule={"
       "}|"
       "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}{}",
-      text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""), scheme.model->number,
+      text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""),
+      scheme.model->own() ? fmt::format("{}#{:016x}", scheme.model->name, scheme.model->fingerprint())
+                          : std::to_string(scheme.model->number),
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",

@@ -50,6 +50,7 @@ struct Series {
     } else if (const auto& parameter = scheme.kernel.row().parameter) {
       visit(Stored{parameter->name().data()}, scheme.kernel.parameter);  // the end of a literal
     }
+    if (scheme.model->own()) visit(Stored{"label"}, std::string(scheme.model->name));
     if (scheme.model->viscous) visit(Stored{"mu"}, first.mu);
     visit(Stored{"path"}, path);
     visit(Stored{.name = "delta", .in_hdf5 = "delta_text"}, delta_text);

@@ -22,9 +22,13 @@ std::vector<Coordinate> scheme_coordinates(const SchemeChoice& scheme, double mu
   if (scheme.program != nullptr) {
     return {unspoken({"scheme", scheme.program->label}), unspoken({"command", scheme.program->command_line()})};
   }
-  std::vector<Coordinate> all = {
-      {"model", static_cast<double>(scheme.model->number), fmt::format("model {}", scheme.model->number)},
-      {"kernel", scheme.kernel.label()}};
+  std::vector<Coordinate> all;
+  if (scheme.model->own()) {
+    all.emplace_back("scheme", std::string(scheme.model->name));
+  } else {
+    all.emplace_back("model", static_cast<double>(scheme.model->number), fmt::format("model {}", scheme.model->number));
+  }
+  all.emplace_back("kernel", scheme.kernel.label());
   if (!standing) all.emplace_back("divergence", scheme.nonlocal_divergence ? "nonlocal" : "local");
   if (scheme.model->viscous) all.emplace_back("mu", mu, fmt::format("mu = {}", mu));
   if (scheme.control != nullptr) all.emplace_back("control", std::string(scheme.control->name));

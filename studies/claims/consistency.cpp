@@ -201,4 +201,29 @@ Measurement growth_below_spacing(const Subject& subject, const LemmaEstimate& es
           }};
 }
 
+Measurement truncation_along(const Subject& subject, const PathChoice& path,
+                             const std::vector<Coordinate>& conditions) {
+  const bool nonlocal = path.nonlocal_source;
+  const ModelCard& model = *subject.scheme.model;
+  const bool in_h = nonlocal || model.order_in_h;
+  const std::string power = model.order == 1.0 ? "" : fmt::format("^{:g}", model.order);
+  const std::string claim = fmt::format("truncation error O({}{})", in_h ? "h" : "max(h, delta)", power);
+  Check check = subject.check(std::string(nonlocal ? model.to_nonlocal : model.to_pde), claim, conditions,
+                              "max |rate + f - du/dt|", Test::rate);
+  check.variable = in_h ? "h" : "max(h,delta)";
+  check.theory_order = nonlocal ? 1.0 : model.order;
+  return {check, [=](Finding& finding) {
+            const Scene& scene = *subject.scene;
+            for (const std::int64_t N : path.N) {
+              const double count = static_cast<double>(N), delta = path.delta({scene.period() / count, count});
+              const std::vector<double> x = subject.positions(N).front();
+              const double h = gaps(x, scene.period()).largest;
+              PlacedScheme placed(subject.scheme, scene, subject.mu, x, delta);
+              const auto source = make_source(subject.scheme, scene, subject.mu, nonlocal, delta);
+              finding.points.push_back({N, h, delta, in_h ? h : std::max(h, delta),
+                                        max_norm(placed.truncation_error(*source, subject.t()))});
+            }
+          }};
+}
+
 }  // namespace acstudy

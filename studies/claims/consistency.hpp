@@ -24,6 +24,11 @@ Measurement consistency_whatever_delta(const Subject& subject, const LemmaEstima
 /// @pre path.nonlocal_source == estimate.nonlocal
 Measurement consistency_along(const Subject& subject, const LemmaEstimate& estimate, const PathChoice& path);
 
+/// What a scheme, with its own source, leaves of its equation along a path: it vanishes with at least the order of its
+/// card.  @pre the scheme is one that runs here; a nonlocal model of it is known, or the path has the source of the PDE
+Measurement truncation_along(const Subject& subject, const PathChoice& path,
+                             const std::vector<Coordinate>& conditions = {});
+
 /// Sharpness of Lemma 3.2 where delta = ratio h, ratio < 1/2: order 2 in h; on jittered particles
 /// at least 1.
 Measurement order_below_spacing(const Subject& subject, const LemmaEstimate& estimate,

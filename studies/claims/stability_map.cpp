@@ -64,7 +64,7 @@ struct Frozen {
       itself.control = nullptr;
       return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().rows()->strongest_decay();
     };
-    rows = viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
+    rows = subject.scheme.model->step_lemma.promised && viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
   }
 
   /// Of R; computed once for all steps.
@@ -281,7 +281,7 @@ double last_stable(Stable&& stable, double highest) {
 /// Whether theory gives the limit itself, and not only that it is no smaller.
 bool limit_is_exact(const Subject& subject, const Integrator& integrator, Measure measure, double C) {
   return C == 0.0 && measure == Measure::norm && integrator.name == forward_euler.name &&
-         subject.scheme.control == nullptr;
+         subject.scheme.control == nullptr && !subject.scheme.model->step_lemma.sharp.empty();
 }
 
 /// The smallest limit of the arrangement's particles, unless another one is not within its bounds.

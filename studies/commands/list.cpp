@@ -18,6 +18,11 @@ std::string list_text(const std::string& what) {
   if (what.empty() || what == "schemes") {
     heading("schemes");
     for (const ModelCard* model : model_cards()) {
+      if (model->own()) {
+        out += fmt::format("{}model = \"{}\"  order {:g} in {} ({})\n", indent, model->name, model->order,
+                           model->order_in_h ? "h" : "max(h,delta)", model->equations.local);
+        continue;
+      }
       const Theorems& equations = model->equations;
       out += fmt::format(
           "{0}model = {1}, divergence = \"local\"     {2}, scheme 1 {3}; {4} where particles stand still\n"

@@ -22,6 +22,12 @@ void read_consistency(const Table& root, Study& study) {
   }
 
   for (const Subject& subject : read_subjects(root, study.scene)) {
+    if (subject.scheme.model->own()) {
+      for (const PathChoice& path : paths) {
+        if (!path.nonlocal_source) study.measurements.push_back(truncation_along(subject, path, {{"path", path.name}}));
+      }
+      continue;
+    }
     for (const LemmaEstimate& estimate : subject.scheme.model->estimates) {
       // D does not depend on how the divergence is written.
       if (estimate.viscous && subject.scheme.nonlocal_divergence) continue;
@@ -43,6 +49,6 @@ constexpr TableKeys consistency_tables[] = {scene_table, scheme_table, sweep_tab
 }  // namespace
 
 const Kind consistency_kind{"consistency", "truncation errors of the operators, no time stepping", consistency_tables,
-                            read_consistency};
+                            read_consistency, true};
 
 }  // namespace acstudy

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "studies/cases/study_result.hpp"
+#include "studies/claims/consistency.hpp"
 #include "studies/claims/identities.hpp"
 #include "studies/claims/stability.hpp"
 #include "studies/kinds/kinds.hpp"
@@ -49,28 +50,6 @@ Measurement along_path(const Series& series, std::size_t number) {
               const Case& c = planned.cases[i];
               finding.points.push_back({c.N, c.h, c.delta, planned.variable(c.h, c.delta), results[i].error_linf});
               if (finding.failure.empty()) finding.failure = results[i].failure;
-            }
-          }};
-}
-
-/// What the scheme, with its own source, leaves of its equation.
-Measurement consistency(const Subject& subject, const PathChoice& path) {
-  const bool nonlocal = path.nonlocal_source;
-  Check check = subject.check(std::string(nonlocal ? subject.scheme.model->to_nonlocal : subject.scheme.model->to_pde),
-                              nonlocal ? "truncation error O(h)" : "truncation error O(max(h, delta))", {},
-                              "max |rate + f - du/dt|", Test::rate);
-  check.variable = nonlocal ? "h" : "max(h,delta)";
-  check.theory_order = 1.0;
-  return {check, [=](Finding& finding) {
-            const Scene& scene = *subject.scene;
-            for (const std::int64_t N : path.N) {
-              const double count = static_cast<double>(N), delta = path.delta({scene.period() / count, count});
-              const std::vector<double> x = subject.positions(N).front();
-              const double h = gaps(x, scene.period()).largest;
-              PlacedScheme placed(subject.scheme, scene, subject.mu, x, delta);
-              const auto source = make_source(subject.scheme, scene, subject.mu, nonlocal, delta);
-              finding.points.push_back({N, h, delta, nonlocal ? h : std::max(h, delta),
-                                        max_norm(placed.truncation_error(*source, subject.t()))});
             }
           }};
 }
@@ -207,8 +186,8 @@ std::vector<Column> columns_without_runs(const Table& root, const std::shared_pt
       const double count = static_cast<double>(N), delta = path.delta({scene->period() / count, count});
       check_horizon(*scene, N, delta, table.place(*table.find("delta")));
     }
-    columns.push_back(
-        {"consistency, " + path.name, [=](const SchemeEntry& entry) { return consistency(on_scene(entry), path); }});
+    columns.push_back({"consistency, " + path.name,
+                       [=](const SchemeEntry& entry) { return truncation_along(on_scene(entry), path); }});
   }
   columns.push_back({"nearest neighbors", [=](const SchemeEntry& entry) {
                        return nearest_neighbor_rows(on_scene(entry), resolutions.N, 0.5);
@@ -279,15 +258,16 @@ constexpr Key control_keys[] = {
     {"expect", "table", "a verdict by the name of a check", "what a right scheme does"},
 };
 constexpr TableKeys controls_tables[] = {scene_table,
-                                time_table,
-                                source_table,
-                                path_table,
-                                {"[[consistency]]", path_keys},
-                                scheme_table,
-                                {"[[control]]", control_keys}};
+                                         time_table,
+                                         source_table,
+                                         path_table,
+                                         {"[[consistency]]", path_keys},
+                                         scheme_table,
+                                         {"[[control]]", control_keys}};
 
 }  // namespace
 
-const Kind controls_kind{"controls", "which check notices which deliberate mistake", controls_tables, read_controls};
+const Kind controls_kind{"controls", "which check notices which deliberate mistake", controls_tables, read_controls,
+                         true};
 
 }  // namespace acstudy

@@ -41,6 +41,7 @@ constexpr TableKeys convergence_tables[] = {scene_table, scheme_table, times_tab
 
 }  // namespace
 
-const Kind convergence_kind{"convergence", "errors of runs along refinement paths", convergence_tables, read_convergence};
+const Kind convergence_kind{"convergence", "errors of runs along refinement paths", convergence_tables,
+                            read_convergence, true};
 
 }  // namespace acstudy

@@ -73,12 +73,13 @@ constexpr Key gaps_keys[] = {
     {"times", "list of numbers", "when gaps are compared, at most 30"},
 };
 constexpr TableKeys digits_tables[] = {{"[[weights]]", weights_keys},
-                                {"[digits]", digits_keys},
-                                {"[scene]", scene_keys, true},
-                                {"[gaps]", gaps_keys, true}};
+                                       {"[digits]", digits_keys},
+                                       {"[scene]", scene_keys, true},
+                                       {"[gaps]", gaps_keys, true}};
 
 }  // namespace
 
-const Kind digits_kind{"digits", "round-off of weights and renormalizations, against 50 digits", digits_tables, read_digits};
+const Kind digits_kind{"digits", "round-off of weights and renormalizations, against 50 digits", digits_tables,
+                       read_digits};
 
 }  // namespace acstudy

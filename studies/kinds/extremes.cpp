@@ -40,6 +40,7 @@ constexpr TableKeys extremes_tables[] = {scheme_table, {"[extremes]", extremes_k
 
 }  // namespace
 
-const Kind extremes_kind{"extremes", "expectation and observation at the ends of every range", extremes_tables, read_extremes};
+const Kind extremes_kind{"extremes", "expectation and observation at the ends of every range", extremes_tables,
+                         read_extremes};
 
 }  // namespace acstudy

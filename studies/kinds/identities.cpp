@@ -35,6 +35,7 @@ constexpr TableKeys identities_tables[] = {scene_table, scheme_table, sweep_tabl
 
 }  // namespace
 
-const Kind identities_kind{"identities", "what the weights satisfy, exactly or within bounds", identities_tables, read_identities};
+const Kind identities_kind{"identities", "what the weights satisfy, exactly or within bounds", identities_tables,
+                           read_identities};
 
 }  // namespace acstudy

@@ -19,6 +19,7 @@ struct Kind {
   std::string_view name, meaning;
   std::span<const TableKeys> tables;
   void (*read)(const Table& root, Study& study);
+  bool own_schemes = false;  ///< whether it says something of a scheme of which theory here knows nothing
 };
 
 /// Errors of runs along refinement paths, judged by their order. Theorems 2.6 - 2.8, 3.5 - 3.7.

@@ -182,7 +182,7 @@ void read_pollution(const Table& root, Study& study) {
 
 }  // namespace
 
-const Kind pollution_kind{"pollution", "parts of the finest errors that are not of the scheme in space", pollution_tables,
-                          read_pollution};
+const Kind pollution_kind{"pollution", "parts of the finest errors that are not of the scheme in space",
+                          pollution_tables, read_pollution};
 
 }  // namespace acstudy

@@ -116,6 +116,7 @@ constexpr TableKeys scan_tables[] = {{"[scan]", scan_keys}};
 
 }  // namespace
 
-const Kind scan_kind{"scan", "how often verdicts are firm and wrong, and how often they decide", scan_tables, read_scan};
+const Kind scan_kind{"scan", "how often verdicts are firm and wrong, and how often they decide", scan_tables,
+                     read_scan};
 
 }  // namespace acstudy

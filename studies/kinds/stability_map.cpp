@@ -137,14 +137,14 @@ constexpr Key growth_keys[] = {
     {"cfl", "list of numbers", "a curve each"},
 };
 constexpr TableKeys stability_map_tables[] = {scene_table,
-                                scheme_table,
-                                {"[[control]]", map_control_keys, true},
-                                {"[stability-map]", grid_keys},
-                                {"[growth]", growth_keys, true}};
+                                              scheme_table,
+                                              {"[[control]]", map_control_keys, true},
+                                              {"[stability-map]", grid_keys},
+                                              {"[growth]", growth_keys, true}};
 
 }  // namespace
 
-const Kind stability_map_kind{"stability-map", "where steps are stable, over CFL number and horizon", stability_map_tables,
-                              read_stability_map};
+const Kind stability_map_kind{"stability-map", "where steps are stable, over CFL number and horizon",
+                              stability_map_tables, read_stability_map, true};
 
 }  // namespace acstudy

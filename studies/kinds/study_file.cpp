@@ -35,6 +35,26 @@ void allow_keys(const toml::table& document, const Kind& kind, const std::string
   }
 }
 
+/// Rejects schemes that somebody has added where all that is measured is what theory says of those of the paper.
+void require_known_schemes(const toml::table& document, const Kind& kind, const std::string& file) {
+  const toml::array* const schemes = document["scheme"].as_array();
+  if (kind.own_schemes || schemes == nullptr) return;
+  for (const toml::node& scheme : *schemes) {
+    const toml::table* const table = scheme.as_table();
+    const toml::node* const model = table != nullptr ? table->get("model") : nullptr;
+    if (model == nullptr || !model->is_string()) continue;
+    std::vector<std::string_view> others;
+    for (const Kind* one : kinds) {
+      if (one->own_schemes) others.push_back(one->name);
+    }
+    Table(*table, "[[scheme]]", file)
+        .place(*model)
+        .fail(
+            fmt::format("a study of kind {} measures what theory says of Models I and II; examine {} in one of kind {}",
+                        kind.name, Table::described(*model), fmt::join(others, ", ")));
+  }
+}
+
 }  // namespace
 
 namespace {
@@ -92,6 +112,7 @@ Study read_document(const toml::table& document, const std::string& text, const 
   }
   study.title = header.find("title") != nullptr ? header.text("title", "title = \"...\"") : study.name;
   allow_keys(document, **kind, file);
+  require_known_schemes(document, **kind, file);
   (*kind)->read(root, study);
   require_names(study);
   return study;

@@ -1,18 +1,62 @@
 #include "studies/models/model_card.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "studies/models/scheme.hpp"
 
 namespace acstudy {
 
-std::span<const ModelCard* const> model_cards() {
-  static constexpr const ModelCard* cards[] = {&model_one, &model_two};
-  return cards;
+namespace {
+
+/// Also where models are added before main begins, it is there.
+std::vector<const ModelCard*>& cards() {
+  static std::vector<const ModelCard*> all = {&model_one, &model_two};
+  return all;
 }
 
+template <class Predicate>
+const ModelCard* find(Predicate&& predicate) {
+  const auto found = std::find_if(cards().begin(), cards().end(), predicate);
+  return found == cards().end() ? nullptr : *found;
+}
+
+}  // namespace
+
+std::span<const ModelCard* const> model_cards() { return cards(); }
+
 const ModelCard* find_model(std::int64_t number) {
-  const auto cards = model_cards();
-  const auto found = std::find_if(cards.begin(), cards.end(), [&](auto* card) { return card->number == number; });
-  return found == cards.end() ? nullptr : *found;
+  return find([&](const ModelCard* card) { return card->number == number; });
+}
+
+const ModelCard* find_own_model(std::string_view name) {
+  return find([&](const ModelCard* card) { return card->own() && card->name == name; });
+}
+
+ModelCard own_card() {
+  ModelCard card{};
+  card.pair_cost = 1.0;
+  card.row_terms = 1.0;
+  card.vector_form = VectorForm::none;
+  card.step_lemma = {.name = "its bound on steps",
+                     .row_by_row = "its bound on steps, row by row",
+                     .where_positive = "where c - b is constant",
+                     .m_matrix = "no entry of a step is negative at any step",
+                     .limit = "c - b",
+                     .enough_for_every_kernel = true};
+  card.to_nonlocal = card.to_pde = "consistency";
+  return card;
+}
+
+void add_model(ModelCard& card) {
+  constexpr int first_number = 100;
+  if (card.name.empty()) throw std::logic_error("a scheme has no name; write .name = \"my-scheme\"");
+  if (find_own_model(card.name) != nullptr) {
+    throw std::logic_error("two schemes have the name " + std::string(card.name) + "; give one of them another");
+  }
+  card.number = first_number + static_cast<int>(cards().size());
+  cards().push_back(&card);
 }
 
 }  // namespace acstudy

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -62,6 +63,7 @@ struct StepLemma {
   /// w in the bound dt <= h_min / w at a smallest gap h_min.
   double (*speed)(const Scene& scene, double mu);
   bool enough_for_every_kernel;  ///< whether the printed condition is
+  bool promised = true;          ///< false where nothing is known of steps
 };
 
 /// Theorems where particles stand still, and where they move with either divergence: "Theorem 2.6". Part (1) of each is
@@ -123,15 +125,29 @@ struct ModelCard {
   NearestNeighbors nearest;
   Mistakes mistakes;
 
+  double order = 1.0;       ///< in max(h, delta), of errors against the PDE
+  bool order_in_h = false;  ///< it is in h, whatever the horizon is
+  /// Of a scheme that somebody has added: a checksum of what it computes. Null of acstudy's own.
+  std::uint64_t (*fingerprint)() = nullptr;
+
+  bool own() const { return fingerprint != nullptr; }
   bool needs_integrable_kernel() const { return cell_weights == CellWeights::masses; }
   int sides() const { return upwind ? 1 : 2; }
 };
 
 extern const ModelCard model_one, model_two;
 
-/// All of them, by number.
+/// All of them, by number: those of acstudy, then those that were added.
 std::span<const ModelCard* const> model_cards();
 /// Null if there is none.
 const ModelCard* find_model(std::int64_t number);
+/// One that was added; null if there is none.
+const ModelCard* find_own_model(std::string_view name);
+
+/// A card on which nothing is said that only theory could know.
+ModelCard own_card();
+/// Adds a model and gives it its number; the card has to live as long as the program.
+/// @throws std::logic_error if it has no name, or that of another one
+void add_model(ModelCard& card);
 
 }  // namespace acstudy

@@ -12,6 +12,8 @@ std::string theorem(const SchemeChoice& scheme, bool standing) {
 Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_source, bool fixed_horizon,
                   bool below_spacing) {
   const std::string statement = theorem(scheme, standing);
+  const ModelCard& model = *scheme.model;
+  if (model.order_in_h) return {"h", model.order, statement};
   if (nonlocal_source) {
     // A second term, h^2/delta or h^3/delta^2, does not vanish for delta below h; there both the nonlocal model and the
     // scheme are within O(max(h, delta)) of the PDE, so part (2) carries over.
@@ -24,7 +26,7 @@ Theory theory_for(const SchemeChoice& scheme, bool standing, bool nonlocal_sourc
   if (fixed_horizon && !below_spacing) {
     return {"h", 0.0, statement + " (1): the limit is the nonlocal model at this horizon, not the PDE"};
   }
-  return {"max(h,delta)", 1.0, statement + " (2)"};
+  return {"max(h,delta)", model.order, model.own() ? statement : statement + " (2)"};
 }
 
 }  // namespace acstudy

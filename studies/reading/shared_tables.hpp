@@ -45,7 +45,7 @@ constexpr auto with_kernel_keys(const Key (&keys)[n]) {
 }
 
 inline constexpr auto scheme_keys = with_kernel_keys({
-    {"model", "whole number", "the model, by the number that acstudy list schemes prints", "needed without command"},
+    {"model", "a model", "by its number, or the name of one that was added: see acstudy list schemes", "needed without command"},
     {"divergence", "\"local\", \"nonlocal\"", "b' is exact, or made of the kernel", "needed where particles move"},
     {"kernel", "a kernel", "by name, or as a table with its parameters", "needed without command"},
     {"kernel.name", "a kernel", "the name, in a table"},

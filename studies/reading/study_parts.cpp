@@ -98,10 +98,13 @@ std::shared_ptr<const Scene> read_scene_with_advection(const Table& table) {
 const ModelCard& read_model(const Table& table) {
   const toml::node& node = table.need("model", "model = 1");
   const auto number = node.value_exact<std::int64_t>();
-  const ModelCard* const model = number ? find_model(*number) : nullptr;
-  if (model == nullptr) {
-    std::vector<int> known;
-    for (const ModelCard* card : model_cards()) known.push_back(card->number);
+  const auto name = node.value_exact<std::string>();
+  const ModelCard* const model = number ? find_model(*number) : name ? find_own_model(*name) : nullptr;
+  if (model == nullptr || (number && model->own())) {
+    std::vector<std::string> known;
+    for (const ModelCard* card : model_cards()) {
+      known.push_back(card->own() ? in_quotes(card->name) : std::to_string(card->number));
+    }
     table.place(node).fail(fmt::format("model = {}; it must be {}", Table::described(node), fmt::join(known, " or ")));
   }
   return *model;
@@ -401,6 +404,10 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
   const Scene& scene = *study.scene;
   const double count = static_cast<double>(N), h = scene.period() / count;
   check_horizon(scene, N, delta, at);
+  if (nonlocal_source && entry.scheme.program == nullptr && entry.scheme.model->continuum == nullptr) {
+    at.fail(
+        fmt::format("no nonlocal model is known that {} goes to; write source = \"local\"", entry.scheme.model->name));
+  }
   Case c{.scene = study.scene,
          .scheme = entry.scheme,
          .mu = entry.mu,

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -100,6 +102,22 @@ FindingRecord read_finding(const std::string& study, const json& one) {
   return record;
 }
 
+/// Of a scheme that another program may have added: what results say of it is its name.
+const ModelCard& card_named(const std::string& name) {
+  if (const ModelCard* const here = find_own_model(name)) return *here;
+  struct Named {
+    std::string name;
+    ModelCard card = own_card();
+  };
+  static std::map<std::string, std::unique_ptr<Named>> known;
+  std::unique_ptr<Named>& one = known[name];
+  if (one == nullptr) {
+    one = std::make_unique<Named>(Named{name});
+    one->card.name = one->name;
+  }
+  return one->card;
+}
+
 /// What a series was run with.
 SchemeChoice read_scheme(const json& one) {
   if (one.contains("command")) {
@@ -112,7 +130,8 @@ SchemeChoice read_scheme(const json& one) {
   if (const NamedKernel* const row = find_kernel(kernel.name); row != nullptr && row->parameter) {
     kernel.parameter = one.value(std::string(row->parameter->name()), 0.0);
   }
-  const ModelCard* const model = find_model(one.at("model").get<std::int64_t>());
+  const ModelCard* const model = one.contains("label") ? &card_named(one.at("label").get<std::string>())
+                                                       : find_model(one.at("model").get<std::int64_t>());
   if (model == nullptr) throw std::invalid_argument("model = " + one.at("model").dump() + " is none");
   return {
       .model = model, .nonlocal_divergence = one.at("divergence").get<std::string>() == "nonlocal", .kernel = kernel};

@@ -70,6 +70,7 @@ json value_schema(std::string_view written) {
   if (written == "a scene") return names_of(named_scenes());
   if (written.ends_with("integrator")) return names_of(integrators);
   if (written == "a control") return names_of(named_controls());
+  if (written == "a model") return {{"type", {"integer", "string"}}};
   if (written == "a kernel") return kernel_schema();
   if (written == "a kind") {
     json names = json::array();

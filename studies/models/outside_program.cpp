@@ -3,9 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace acstudy {
 
-std::string OutsideProgram::command_line() const { return fmt::format("{}", fmt::join(command, " ")); }
+std::string OutsideProgram::command_line() const {
+  std::string text = fmt::format("{}", fmt::join(command, " "));
+  std::replace_if(text.begin(), text.end(), is_control, ' ');
+  return text;
+}
 
 std::string OutsideProgram::key() const {
   std::string text;

@@ -14,6 +14,9 @@
 
 namespace acstudy {
 
+/// True of a character that is not to be printed.
+inline bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
 struct OutsideProgram {
   /// A file that decides what the program does; with another content it is another scheme.
   struct Input {

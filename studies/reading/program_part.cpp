@@ -94,7 +94,7 @@ std::shared_ptr<const OutsideProgram> read_program(const Table& scheme) {
   program->folder = fs::path(scheme.file()).parent_path().string();
   program->label =
       scheme.find("label") != nullptr ? scheme.text("label", "label = \"upwind\"") : program->command_line();
-  if (program->label.empty() || program->label.find_first_of("\n\r\t") != std::string::npos) {
+  if (program->label.empty() || std::any_of(program->label.begin(), program->label.end(), is_control)) {
     scheme.place(*scheme.find("label")).fail("a label is one line of text, for example \"upwind\"");
   }
   const toml::node& order = scheme.need("order", "order = 1");

@@ -52,7 +52,7 @@ std::string quoted(const std::string& text) {
 std::string readable(const std::string& bytes) {
   std::string text = nlohmann::json::parse(quoted(bytes)).get<std::string>();
   for (char& c : text) {
-    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) c = '?';
+    if (is_control(c) && c != '\n' && c != '\t') c = '?';
   }
   return text;
 }

@@ -1,4 +1,4 @@
-"""The package for Python: what pyproject.toml says, with the program that CMake builds, or that ACSTUDY_PROGRAM names."""
+"""The package that pyproject.toml describes, with the program: built by CMake, or named by ACSTUDY_PROGRAM."""
 
 import os
 from pathlib import Path
@@ -25,7 +25,8 @@ def built_program():
     folder = ROOT / FOLDER / "cmake"
     subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DACSTUDY_TESTS=OFF",
                     "-DACSTUDY_FOLDERS=ON", *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
-    subprocess.run(["cmake", "--build", folder, "--target", "acstudy", "--parallel", str(os.cpu_count())], check=True)
+    subprocess.run(["cmake", "--build", folder, "--target", "acstudy"], check=True,
+                   env={"CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count()), **os.environ})
     return folder / "acstudy"
 
 

@@ -28,9 +28,9 @@ figure, axes = plt.subplots(figsize=(3.4, 3.2), layout="constrained")
 for marker, path in zip("osv", dict.fromkeys(table["path"])):
     rows = table[table["path"] == path]
     order, low, high, h, error = (np.array(rows[name]) for name in ("order", "low", "high", "h", "error_linf"))
-    formula = path.replace("delta", r"\delta")
-    axes.loglog(h, error, marker=marker, label=f"${formula}$: order {round(order[0], 2) + 0:.2f} [{low[0]:.2f}, {high[0]:.2f}]")
-axes.loglog(h, 0.3 * error[0] * h / h[0], "k:", label="order 1")
+    words = f"${path}$: order {round(order[0], 2) + 0:.2f} [{low[0]:.2f}, {high[0]:.2f}]"
+    axes.loglog(h, error, marker=marker, label=words.replace("delta", r"\delta"))
+axes.loglog(h, 0.2 * error[0] * h / h[0], "k:", label="order 1")
 axes.xaxis.set_minor_formatter(NullFormatter())
 axes.set(xlabel="spacing $h$", ylabel="error at $t = 1$, max norm")
 axes.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1))

@@ -69,9 +69,11 @@ def results(out: Place = "reports/out", studies: Optional[Iterable[str]] = None)
     return table
 
 
-def _rows(result: dict[str, Any]) -> Iterable[dict[str, Any]]:
+def _rows(result: Any) -> Iterable[dict[str, Any]]:
     """A row for each case or value of a result file; none of another file."""
-    findings = result.get("series", result.get("findings", [])) if "study" in result else []
+    if not isinstance(result, dict) or "study" not in result:
+        return
+    findings = result.get("series", result.get("findings", []))
     for finding in findings:
         known = {**result, **finding.get("coordinates", {}), **finding, **finding.get("observed", {}),
                  "scheme": finding["subject"], "path": finding["check"]}

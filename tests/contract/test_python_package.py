@@ -191,6 +191,8 @@ class ResultsTest(ProgramTest):
         points = [point["value"] for finding in self.result("bounds")["findings"] for point in finding["points"]]
         self.assertEqual(list(table["value"]), points)
         self.assertTrue(np.isnan(table["error_linf"]).all())
+        for name, text in (("bench", '{"format": "acstudy-bench-1", "series": []}'), ("list", "[1]")):
+            self.write(f"out/{name}.json", text)  # not results of a study
         self.assertEqual(len(acstudy.results(self.folder / "out")), len(points) + 3)
 
     def test_a_verdict_that_departs_is_in_the_table(self):

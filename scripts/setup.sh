@@ -39,6 +39,10 @@ browser Selenium      @import:selenium                              python3-sele
 browser npm           npm                                           npm                 node              nodejs           nodejs-npm
 others gfortran       gfortran                                      gfortran            gcc               gfortran         gcc-gfortran
 others jsonschema     @import:jsonschema                            python3-jsonschema  pip:jsonschema    jsonschema       python3-jsonschema
+others pip            @import:pip                                   python3-pip         python            pip              python3-pip
+others setuptools     @import:setuptools                            python3-setuptools  pip:setuptools    setuptools       python3-setuptools
+others wheel          @import:wheel                                 python3-wheel       pip:wheel         wheel            python3-wheel
+others pandas         @import:pandas                                python3-pandas      pip:pandas        pandas           python3-pandas
 lint   clang-format   clang-format                                  clang-format        clang-format      clang-format     clang-tools-extra
 END
 }

@@ -1,5 +1,6 @@
 """README and docs show what the program prints, and what they name is there."""
 
+import os
 import re
 import subprocess
 import sys
@@ -61,6 +62,7 @@ class Pages(ProgramTest):
 
     def shell(self, command):
         return subprocess.run(["sh", "-c", f'PATH="$PWD/build:$PATH"; {command}'], cwd=self.folder, text=True,
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "python"), "ACSTUDY": str(ACSTUDY)},
                               capture_output=True, check=False, timeout=120)
 
     def test_the_first_page_is_short(self):
@@ -101,6 +103,10 @@ class Pages(ProgramTest):
         elif words[0] == "python3":
             self.assertTrue((ROOT / words[1]).exists())
             return
+        elif words[0] == "pip":
+            self.assertEqual((words[1], words[-1]), ("install", "."))
+            self.assertTrue((ROOT / "pyproject.toml").exists())
+            return
         elif words[0] == "cmake":
             presets = (ROOT / "CMakePresets.json").read_text(encoding="utf-8")
             for preset in re.findall(r"--preset (\w+)", line):
@@ -133,7 +139,7 @@ class Pages(ProgramTest):
 
     def test_a_command_that_cannot_be_given_is_seen(self):
         for line in ("make nothing", "build/acstudy run studies/none.toml", "acstudy fit t.csv --nothing", "ls",
-                     "python3 none.py", "cmake --preset none"):
+                     "python3 none.py", "pip install acstudy", "cmake --preset none"):
             with self.subTest(line), self.assertRaises(AssertionError):
                 self.check_command(line)
 

@@ -114,6 +114,12 @@ class Expression {
     unsigned depends = 0;   ///< bit i: depends on variable i
   };
 
+  /// The operations in the order in which they are done, for arithmetic of another kind; node i < number of variables
+  /// is variable i.
+  std::span<const Node> tape() const { return tape_; }
+  /// The node of the value, of a vector that of the first component.
+  std::size_t result() const { return results_.front(); }
+
  private:
   friend class FixedPoints;
   /// What a run has to compute at `count` points, which are `x` or those from number `begin` of fixed ones on.

@@ -42,7 +42,7 @@ struct Series {
     visit(Stored{"model"}, static_cast<std::int64_t>(scheme.model->number));
     visit(Stored{"divergence"}, which(scheme.nonlocal_divergence));
     visit(Stored{"kernel"}, scheme.kernel.name);
-    if (const auto& parameter = scheme.kernel.row().parameter) {
+    if (const KernelParameter* const parameter = scheme.kernel.family()) {
       visit(Stored{parameter->name().data()}, scheme.kernel.parameter);  // the end of a literal
     }
     if (scheme.model->viscous) visit(Stored{"mu"}, first.mu);

@@ -6,11 +6,6 @@
 
 namespace acstudy {
 
-std::string KernelChoice::label() const {
-  const NamedKernel* const row = find_kernel(name);
-  return row != nullptr && row->parameter ? fmt::format("{}({})", name, parameter) : name;
-}
-
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
   std::string text(scheme.model->name);
   if (!standing) text += scheme.nonlocal_divergence ? ", nonlocal divergence" : ", local divergence";

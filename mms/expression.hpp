@@ -113,9 +113,11 @@ class Expression {
     double constant = 0.0;  ///< value of a constant
     unsigned depends = 0;   ///< bit i: depends on variable i
   };
-  /// The operations in an order in which they can be done, and the number of the one whose value the expression has, of
-  /// a vector the first component.
-  const std::vector<Node>& tape() const { return tape_; }
+
+  /// The operations in the order in which they are done, for arithmetic of another kind; node i < number of variables
+  /// is variable i.
+  std::span<const Node> tape() const { return tape_; }
+  /// The node of the value, of a vector that of the first component.
   std::size_t result() const { return results_.front(); }
 
  private:

@@ -61,10 +61,8 @@ Rule compress(const Rule& atoms, std::size_t points) {
   return rule;
 }
 
-/// Atoms of int_0^1 [ int_0^1 f(theta z) theta^power d theta ] z eta(z) dz.
-Rule averaged_atoms(const KernelProfile& kernel, std::size_t points, double power) {
-  const std::size_t fine = points + 8;
-  const Rule outer = first_moment_rule(kernel, fine), inner = jacobi_rule(0.0, 1.0, power, fine);
+/// Atoms of int_0^1 [ int_0^1 f(theta z) theta^power d theta ] z eta(z) dz, by rules for either integral.
+Rule averaged_atoms(const Rule& outer, const Rule& inner) {
   Rule atoms;
   for (std::size_t i = 0; i < outer.size(); ++i) {
     for (std::size_t q = 0; q < inner.size(); ++q) {
@@ -79,15 +77,15 @@ Rule averaged_atoms(const KernelProfile& kernel, std::size_t points, double powe
 /// milliseconds.
 Rule averaged_rule(const KernelProfile& kernel, std::size_t points, double power) {
   static std::mutex mutex;
-  static std::map<std::tuple<std::type_index, double, double, double, std::size_t, double>, Rule> known;
-  // Members of a family have one kind; they differ in their exponent, or in what is beside it.
-  const std::tuple key(kernel.kind, kernel.origin_exponent, kernel.regular_part(0.25), kernel.regular_part(0.75),
-                       points, power);
+  static std::map<std::tuple<std::vector<double>, std::vector<double>, std::size_t, double>, Rule> known;
+  const std::size_t fine = points + 8;
+  const Rule outer = first_moment_rule(kernel, fine);
+  const std::tuple key(outer.node, outer.weight, points, power);
   {
     const std::lock_guard lock(mutex);
     if (const auto rule = known.find(key); rule != known.end()) return rule->second;
   }
-  const Rule rule = compress(averaged_atoms(kernel, points, power), points);
+  const Rule rule = compress(averaged_atoms(outer, jacobi_rule(0.0, 1.0, power, fine)), points);
   const std::lock_guard lock(mutex);
   known.emplace(key, rule);
   return rule;
@@ -97,10 +95,11 @@ Rule averaged_rule(const KernelProfile& kernel, std::size_t points, double power
 
 Rule first_moment_rule(const KernelProfile& kernel, std::size_t points_per_piece) {
   const double a = kernel.origin_exponent;
-  Rule rule = jacobi_rule(0.0, kernel.breakpoint, 1.0 - a, points_per_piece);
+  const std::vector<double>& breaks = kernel.breaks;
+  Rule rule = jacobi_rule(0.0, breaks.empty() ? 1.0 : breaks.front(), 1.0 - a, points_per_piece);
   for (std::size_t i = 0; i < rule.size(); ++i) rule.weight[i] *= kernel.regular_part(rule.node[i]);
-  if (kernel.breakpoint < 1.0) {
-    const Rule rest = jacobi_rule(kernel.breakpoint, 1.0, 0.0, points_per_piece);
+  for (std::size_t k = 0; k < breaks.size(); ++k) {
+    const Rule rest = jacobi_rule(breaks[k], k + 1 < breaks.size() ? breaks[k + 1] : 1.0, 0.0, points_per_piece);
     for (std::size_t i = 0; i < rest.size(); ++i) {
       rule.node.push_back(rest.node[i]);
       rule.weight.push_back(rest.weight[i] * std::pow(rest.node[i], 1.0 - a) * kernel.regular_part(rest.node[i]));

@@ -5,8 +5,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <typeindex>
-#include <typeinfo>
 #include <vector>
 
 #include "solver/kernels.hpp"
@@ -23,18 +21,18 @@ struct Rule {
 struct KernelProfile {
   double origin_exponent;                      ///< a such that z^a eta(z) is smooth up to z = 0
   std::function<double(double)> regular_part;  ///< z^a eta(z), 0 <= z <= 1
-  double breakpoint;                           ///< interior point where eta is not smooth, or 1
-  std::type_index kind;                        ///< kernels of one kind and origin_exponent are the same
+  std::vector<double> breaks;                  ///< interior points where eta is not smooth, in increasing order
 };
 
 template <Kernel K>
 KernelProfile profile(K kernel) {
-  return {kernel.origin_exponent(), [kernel](double z) { return kernel.regular_part(z); }, kernel.breakpoint(),
-          typeid(K)};
+  const auto breaks = kernel.breaks();
+  return {
+      kernel.origin_exponent(), [kernel](double z) { return kernel.regular_part(z); }, {breaks.begin(), breaks.end()}};
 }
 
 /// A rule for int_0^1 f(z) z eta(z) dz, split at the kernel's breakpoints: Gauss-Jacobi on the piece at the origin,
-/// which absorbs its singularity, Gauss-Legendre on the other.
+/// which absorbs its singularity, Gauss-Legendre on the others.
 /// @throws std::domain_error if the singularity is beyond double precision (alpha = -200, say)
 Rule first_moment_rule(const KernelProfile& kernel, std::size_t points_per_piece);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <span>
 #include <stdexcept>
 
 #include "solver/line/cells.hpp"
@@ -25,7 +26,7 @@ namespace acstudy {
 /// | `k.first_moment(cell)` | int r eta(r) dr over the cell, >= 0, to some units in the last place, however narrow    |
 /// | `k.origin_exponent()`  | a < 2 such that z^a eta(z) is smooth up to z = 0                                        |
 /// | `k.regular_part(z)`    | z^a eta(z), 0 <= z <= 1                                                                 |
-/// | `k.breakpoint()`       | the interior point where eta is not smooth, or 1 if there is none                       |
+/// | `k.breaks()`           | the interior points where eta is not smooth, in increasing order                       |
 ///
 /// Arguments are distances in units of the horizon, 0 <= z <= 1.
 template <class K>
@@ -35,7 +36,7 @@ concept Kernel = requires(const K k, double z, const Cell& cell) {
   { k.first_moment(cell) } -> std::same_as<double>;
   { k.origin_exponent() } -> std::same_as<double>;
   { k.regular_part(z) } -> std::same_as<double>;
-  { k.breakpoint() } -> std::same_as<double>;
+  { k.breaks() } -> std::same_as<std::span<const double>>;
 };
 
 /// A kernel that Model II can use as well: eta itself is integrable, so that its cell integrals exist (3.3).
@@ -60,7 +61,7 @@ struct InverseKernel {
   double first_moment(const Cell& cell) const { return cell.width; }
   double origin_exponent() const { return 1.0; }
   double regular_part(double) const { return 1.0; }
-  double breakpoint() const { return 1.0; }
+  std::span<const double> breaks() const { return {}; }
 };
 
 /// b^p - a^p = -b^p expm1(p log(a/b)) over a cell [a, b], p > 0.
@@ -85,7 +86,7 @@ class PowerKernel {
   double first_moment(const Cell& cell) const { return power_difference(cell, 2.0 - alpha_); }
   double origin_exponent() const { return alpha_; }
   double regular_part(double) const { return 2.0 - alpha_; }
-  double breakpoint() const { return 1.0; }
+  std::span<const double> breaks() const { return {}; }
 
  private:
   double alpha_;
@@ -135,9 +136,11 @@ struct CubicSplineKernel {
   }
   double origin_exponent() const { return 0.0; }
   double regular_part(double z) const { return eta(z); }
-  double breakpoint() const { return 0.5; }
+  std::span<const double> breaks() const { return break_; }
 
  private:
+  static constexpr double break_[] = {0.5};
+
   /// A cell cut at z = 1/2. Both parts are polynomials with their width as a factor: inside in the distances of the two
   /// ends, outside in their distances to the horizon, and of these in the sum and the product.
   template <class Inside, class Outside>

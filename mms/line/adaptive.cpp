@@ -56,6 +56,18 @@ double integrate_boost(const Function& g, double lower, double upper, double exp
   return result;
 }
 
+/// int_0^end g(z) z^exponent dz, between the breaks by `integrate`, which takes the power out of the first piece.
+template <class Integrate>
+double over_pieces(const std::vector<double>& breaks, double end, const Function& g, double exponent,
+                   const Integrate& integrate) {
+  const auto bound = [&](std::size_t k) { return k < breaks.size() ? std::min(breaks[k], end) : end; };
+  double sum = integrate(g, 0.0, bound(0), exponent);
+  const Function powered = [&](double z) { return g(z) * std::pow(z, exponent); };
+  for (std::size_t k = 0; k < breaks.size() && breaks[k] < end; ++k)
+    sum += integrate(powered, breaks[k], bound(k + 1), 0.0);
+  return sum;
+}
+
 }  // namespace
 
 double divided_difference(const PointFunction& g, double left, double right, double small) {
@@ -69,7 +81,7 @@ double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model,
                                  std::int64_t& points) {
   const Function G = model.continuum->integrand(scene, model, x, t);
   const double delta = model.delta;
-  const double a = model.kernel.origin_exponent, middle = model.kernel.breakpoint;
+  const double a = model.kernel.origin_exponent;
   const auto integrate = [&](const Function& g, double lower, double upper, double exponent) {
     const Function counted = [&](double z) {
       ++points;
@@ -79,17 +91,12 @@ double nonlocal_terms_adaptively(const Scene& scene, const NonlocalModel& model,
                                    : integrate_boost(counted, lower, upper, exponent);
   };
   const auto weighted = [&](double z) { return G(delta * z) * model.kernel.regular_part(z); };
-  double sum = integrate(weighted, 0.0, middle, 1.0 - a);
-  if (middle < 1.0) sum += integrate([&](double z) { return weighted(z) * std::pow(z, 1.0 - a); }, middle, 1.0, 0.0);
-  return sum;
+  return over_pieces(model.kernel.breaks, 1.0, weighted, 1.0 - a, integrate);
 }
 
 double kernel_moment_adaptively(const KernelProfile& kernel, int power, double z, SourceRule rule) {
   const auto integrate = rule == SourceRule::gsl ? integrate_gsl : integrate_boost;
-  const double exponent = power - kernel.origin_exponent, middle = std::min(z, kernel.breakpoint);
-  const double inner = integrate(kernel.regular_part, 0.0, middle, exponent);
-  if (z <= middle) return inner;
-  return inner + integrate([&](double r) { return kernel.regular_part(r) * std::pow(r, exponent); }, middle, z, 0.0);
+  return over_pieces(kernel.breaks, z, kernel.regular_part, power - kernel.origin_exponent, integrate);
 }
 
 }  // namespace acstudy

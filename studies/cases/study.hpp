@@ -47,7 +47,7 @@ struct Series {
     if (program) {
       visit(Stored{"label"}, scheme.program->label);
       visit(Stored{"command"}, scheme.program->command_line());
-    } else if (const auto& parameter = scheme.kernel.row().parameter) {
+    } else if (const KernelParameter* const parameter = scheme.kernel.family()) {
       visit(Stored{parameter->name().data()}, scheme.kernel.parameter);  // the end of a literal
     }
     if (scheme.model->own()) visit(Stored{"label"}, std::string(scheme.model->name));

@@ -12,6 +12,7 @@
 
 #include "solver/line/model1.hpp"
 #include "solver/line/model2.hpp"
+#include "studies/models/exact_profile.hpp"
 
 namespace acstudy {
 
@@ -99,29 +100,45 @@ std::vector<double> weights(CellWeights of, const K& kernel, const Side& at, Cel
   return W;
 }
 
-/// int of eta, or of s eta, from 0 to z.
+/// The integral of eta, or of s eta, over a cell. Of a kernel by its closed form, of a written one from its text.
 template <Kernel K>
-Exact exact_integral(CellWeights of, const K& kernel, const Exact& z) {
-  if constexpr (IntegrableKernel<K>) {
-    if (of == CellWeights::masses) return exact_mass(kernel, z);
+class ExactCells {
+ public:
+  ExactCells(const KernelChoice&, const K& kernel) : kernel_(kernel) {}
+  Exact operator()(CellWeights of, const Exact& from, const Exact& to) const {
+    if constexpr (IntegrableKernel<K>) {
+      if (of == CellWeights::masses) return exact_mass(kernel_, to) - exact_mass(kernel_, from);
+    }
+    return exact_moment(kernel_, to) - exact_moment(kernel_, from);
   }
-  return exact_moment(kernel, z);
-}
+
+ private:
+  const K& kernel_;
+};
+
+template <Kernel K>
+requires std::is_base_of_v<PiecewiseKernel, K>
+class ExactCells<K> {
+ public:
+  ExactCells(const KernelChoice& choice, const K&) : profile_(*choice.its_formula()) {}
+  Exact operator()(CellWeights of, const Exact& from, const Exact& to) const {
+    return Exact(profile_.integral(of == CellWeights::masses ? 0 : 1, HundredDigits(from), HundredDigits(to)) / total_);
+  }
+
+ private:
+  ExactProfile profile_;
+  HundredDigits total_ = profile_.integral(1, 0, 1);
+};
 
 /// The largest relative error of the weights on one side: of the 64 nearest, the last, and every sixteenth between.
 template <Kernel K>
-double error_of_weights(CellWeights of, const K& kernel, const Side& at, CellForm form) {
+double error_of_weights(CellWeights of, const K& kernel, const ExactCells<K>& exact_cell, const Side& at,
+                        CellForm form) {
   const std::vector<double> W = weights(of, kernel, at, form);
   double largest = 0.0;
-  Exact inner = exact_integral(of, kernel, Exact(0));
-  std::ptrdiff_t inner_of = 0;  // the neighbor whose cell ends there
   for (std::ptrdiff_t k = 1; k <= at.last; ++k) {
     if (k > 64 && k % 16 != 0 && k != at.last) continue;
-    if (inner_of != k - 1) inner = exact_integral(of, kernel, at.exact_end(k - 1));
-    const Exact outer = exact_integral(of, kernel, at.exact_end(k));
-    Exact exact = outer - inner;
-    inner = outer;
-    inner_of = k;
+    Exact exact = exact_cell(of, k > 1 ? at.exact_end(k - 1) : Exact(0), at.exact_end(k));
     if (of == CellWeights::moments_over_distance) exact /= at.distance(k);
     const double error = relative_error(W[static_cast<std::size_t>(k - 1)], exact);
     if (worse(error, largest)) largest = error;
@@ -131,11 +148,11 @@ double error_of_weights(CellWeights of, const K& kernel, const Side& at, CellFor
 
 /// sum_k d_k m_k over one side.
 template <IntegrableKernel K>
-Exact exact_moment_of_side(const K& kernel, const Side& at) {
+Exact exact_moment_of_side(const ExactCells<K>& exact_cell, const Side& at) {
   Exact sum = 0, inner = 0;
   for (std::ptrdiff_t k = 1; k <= at.last; ++k) {
-    const Exact outer = exact_mass(kernel, at.exact_end(k));
-    sum += at.distance(k) * (outer - inner);
+    const Exact outer = at.exact_end(k);
+    sum += at.distance(k) * exact_cell(CellWeights::masses, inner, outer);
     inner = outer;
   }
   return sum;
@@ -188,9 +205,10 @@ Measurement round_off_of_weights(const WeightsChoice& choice, const std::vector<
   if (!factored) check.be_control("a narrow cell is the difference of two values that agree in most digits");
   return {check, [=](Finding& finding) {
             with_kernel(choice.kernel, [&](const auto& kernel) {
+              const ExactCells exact_cell(choice.kernel, kernel);
               measure(finding, ratios, [&](const Side& left, const Side& right) {
-                const double on_left = error_of_weights(choice.model->cell_weights, kernel, left, form);
-                const double on_right = error_of_weights(choice.model->cell_weights, kernel, right, form);
+                const double on_left = error_of_weights(choice.model->cell_weights, kernel, exact_cell, left, form);
+                const double on_right = error_of_weights(choice.model->cell_weights, kernel, exact_cell, right, form);
                 return worse(on_right, on_left) ? on_right : on_left;
               });
             });
@@ -200,19 +218,21 @@ Measurement round_off_of_weights(const WeightsChoice& choice, const std::vector<
 Measurement round_off_of_renormalization(const WeightsChoice& choice, const std::vector<double>& ratios) {
   Check check = check_of(choice, "round-off", "N_j is exact to 1e-13", "N_j");
   check.remark = "plain sums: all terms are positive, and 2e4 of them round off less than the bound by far";
-  return {
-      check, [=](Finding& finding) {
-        with_kernel(choice.kernel, [&]<class K>(const K& kernel) {
-          if constexpr (IntegrableKernel<K>) {
-            measure(finding, ratios, [&](const Side& left, const Side& right) {
-              std::vector<double> m(static_cast<std::size_t>(left.last + right.last));
-              const double moment = set_masses<-1>(kernel, left.x, left.delta, left.last, m.data() + left.last - 1) +
-                                    set_masses<+1>(kernel, right.x, right.delta, right.last, m.data() + left.last);
-              return relative_error(moment, exact_moment_of_side(kernel, left) + exact_moment_of_side(kernel, right));
+  return {check, [=](Finding& finding) {
+            with_kernel(choice.kernel, [&]<class K>(const K& kernel) {
+              if constexpr (IntegrableKernel<K>) {
+                const ExactCells exact_cell(choice.kernel, kernel);
+                measure(finding, ratios, [&](const Side& left, const Side& right) {
+                  std::vector<double> m(static_cast<std::size_t>(left.last + right.last));
+                  const double moment =
+                      set_masses<-1>(kernel, left.x, left.delta, left.last, m.data() + left.last - 1) +
+                      set_masses<+1>(kernel, right.x, right.delta, right.last, m.data() + left.last);
+                  return relative_error(
+                      moment, exact_moment_of_side(exact_cell, left) + exact_moment_of_side(exact_cell, right));
+                });
+              }
             });
-          }
-        });
-      }};
+          }};
 }
 
 namespace {

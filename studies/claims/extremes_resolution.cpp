@@ -318,8 +318,9 @@ void add_rows_of_resolution(ExtremeRows& rows, const Extremes& extremes) {
   // Once a divergence, whatever alpha the study gives.
   for (const bool nonlocal : {false, true}) {
     const auto singular = std::find_if(extremes.schemes.begin(), extremes.schemes.end(), [&](const SchemeChoice& one) {
-      const auto& parameter = one.kernel.row().parameter;
-      return one.model->upwind && parameter && parameter->singular_at_two && one.nonlocal_divergence == nonlocal;
+      const KernelParameter* const parameter = one.kernel.family();
+      return one.model->upwind && parameter != nullptr && parameter->singular_at_two &&
+             one.nonlocal_divergence == nonlocal;
     });
     if (singular != extremes.schemes.end()) add_singular_kernels(rows, *singular);
   }

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "mms/scene.hpp"
 #include "solver/time/integrators.hpp"
 #include "studies/kinds/kinds.hpp"
@@ -9,7 +13,27 @@
 
 namespace acstudy {
 
-std::string list_text(const std::string& what) {
+namespace {
+
+/// eta over the unit horizon, from the particle to the horizon, in columns of eight heights. Of what grows without
+/// bound at 0 the first column alone is full.
+std::string drawn(const NamedKernel& row) {
+  constexpr const char* heights[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  constexpr int columns = 40;
+  const KernelChoice choice{std::string(row.name), row.parameter ? row.parameter->example : 0.0};
+  std::array<double, columns> eta;
+  with_kernel(choice, [&](const auto& kernel) {
+    for (int i = 0; i < columns; ++i) eta[i] = kernel.eta((i + 0.5) / columns);
+  });
+  const double largest = *std::max_element(eta.begin(), eta.end());
+  std::string out;
+  for (const double value : eta) out += heights[std::lround(8.0 * value / largest)];
+  return out;
+}
+
+}  // namespace
+
+std::string list_text(const std::string& what, bool draw) {
   std::string out;
   const auto heading = [&](const char* title) {
     if (what.empty()) out += fmt::format("{}:\n", title);
@@ -32,8 +56,10 @@ std::string list_text(const std::string& what) {
   }
   if (what.empty() || what == "kernels") {
     heading("kernels");
-    for (const NamedKernel& kernel : named_kernels)
+    for (const NamedKernel& kernel : named_kernels) {
       out += fmt::format("{}{:<35} {}\n", indent, kernel.written, kernel.meaning);
+      if (draw) out += fmt::format("{}{:<35} {}\n", indent, "", drawn(kernel));
+    }
   }
   if (what.empty() || what == "integrators") {
     heading("integrators");

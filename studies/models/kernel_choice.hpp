@@ -1,11 +1,15 @@
 #pragma once
 
 /// @file
-/// The kernels that a study can name, a row each: the one place where a name becomes a type.
+/// The kernels that a study can name, a row each, and those that it writes: the one place where a choice becomes a
+/// type.
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -14,18 +18,24 @@
 
 #include "solver/kernels.hpp"
 #include "solver/line/vector/sweeps.hpp"
+#include "solver/piecewise_kernel.hpp"
+#include "studies/models/kernel_formula.hpp"
 #include "studies/models/key.hpp"
 
 namespace acstudy {
 
 /// A kernel of the solver. A family has a type for each part of its range that can do something else.
-using AnyKernel = std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel>;
+using AnyKernel = std::variant<InverseKernel, CubicSplineKernel, PowerKernel, IntegrablePowerKernel, PiecewiseKernel,
+                               IntegrablePiecewiseKernel>;
+
+/// @throws KernelError  if it is none
+AnyKernel make_kernel(const KernelFormula& formula);
 
 /// What tells the members of a family apart.
 struct KernelParameter {
   Key key;                      ///< "kernel.alpha", in studies
   std::string_view role;        ///< "exponent"
-  std::string_view example;     ///< "0.5"
+  double example;               ///< 0.5
   std::string_view range;       ///< where there is a kernel: "has a first moment only for a finite alpha < 2"
   std::string_view integrable;  ///< where it is integrable as well: "alpha < 1"
   bool (*in_range)(double);
@@ -39,15 +49,16 @@ struct NamedKernel {
   std::string_view name;
   std::string_view written;  ///< as a study writes it
   std::string_view meaning;
-  AnyKernel (*make)(double parameter);
-  SweepKernel::Form form = SweepKernel::Form::scalar;  ///< of its moments in sweeps: its own, if worth it
+  std::string_view profile = {}, breaks = {};          ///< its density and breaks, as in a KernelFormula; or
+  AnyKernel (*make)(double parameter) = nullptr;       ///< a type of its own, and
+  SweepKernel::Form form = SweepKernel::Form::scalar;  ///< the form of its moments in sweeps, if it is worth one
   std::optional<KernelParameter> parameter = {};
 
   /// As an example: "\"inverse\"", "{ name = \"power\", alpha = 0.5 }".
   std::string example() const {
     std::string text = '"' + std::string(name) + '"';
     if (!parameter) return text;
-    return "{ name = " + text + ", " + std::string(parameter->name()) + " = " + std::string(parameter->example) + " }";
+    return fmt::format("{{ name = {}, {} = {} }}", text, parameter->name(), parameter->example);
   }
 };
 
@@ -68,7 +79,7 @@ inline constexpr NamedKernel named_kernels[] = {
          KernelParameter{.key = {"kernel.alpha", "number", "exponent of the power kernel: below 2, in Model II below 1",
                                  "needed by \"power\""},
                          .role = "exponent",
-                         .example = "0.5",
+                         .example = 0.5,
                          .range = "has a first moment only for a finite alpha < 2",
                          .integrable = "alpha < 1",
                          .in_range = [](double alpha) { return alpha < 2.0; },
@@ -78,6 +89,34 @@ inline constexpr NamedKernel named_kernels[] = {
      .meaning = "Model II; Model I: its upwind half, doubled",
      .make = [](double) -> AnyKernel { return CubicSplineKernel{}; },
      .form = SweepKernel::Form::cubic_spline},
+    {.name = "quartic-spline",
+     .written = "\"quartic-spline\"",
+     .meaning = "B-spline of degree 4, as a density",
+     .profile = "(1-s)^4 - 5*max(3/5-s, 0)^4 + 10*max(1/5-s, 0)^4",
+     .breaks = "1/5 3/5"},
+    {.name = "quintic-spline",
+     .written = "\"quintic-spline\"",
+     .meaning = "B-spline of degree 5, as a density",
+     .profile = "(1-s)^5 - 6*max(2/3-s, 0)^5 + 15*max(1/3-s, 0)^5",
+     .breaks = "1/3 2/3"},
+    {.name = "wendland-c2",
+     .written = "\"wendland-c2\"",
+     .meaning = "Wendland's C2 function on a line, as a density",
+     .profile = "(1-s)^3*(1+3*s)"},
+    {.name = "wendland-c4",
+     .written = "\"wendland-c4\"",
+     .meaning = "Wendland's C4 function on a line, as a density",
+     .profile = "(1-s)^5*(1+5*s+8*s^2)"},
+    {.name = "wendland-c6",
+     .written = "\"wendland-c6\"",
+     .meaning = "Wendland's C6 function on a line, as a density",
+     .profile = "(1-s)^7*(1+7*s+19*s^2+21*s^3)"},
+    {.name = "truncated-gaussian",
+     .written = "\"truncated-gaussian\"",
+     .meaning = "exp(-9 s^2) as a density, cut off at three of its lengths",
+     .profile = "exp(-9*s^2)"},
+    {.name = "constant", .written = "\"constant\"", .meaning = "eta(s) ~ 1; as a density 1 - s", .profile = "1-s"},
+    {.name = "hat", .written = "\"hat\"", .meaning = "eta(s) ~ 1 - s; as a density (1 - s)^2", .profile = "(1-s)^2"},
 };
 
 /// The keys of the families' parameters, each once.
@@ -105,13 +144,25 @@ inline const NamedKernel* find_kernel(std::string_view name) {
 }
 
 struct KernelChoice {
-  std::string name;
-  double parameter = 0.0;  ///< of a family
+  std::string name;                                        ///< of one that is written: the label of its formula
+  double parameter = 0.0;                                  ///< of a family
+  std::shared_ptr<const KernelFormula> formula = nullptr;  ///< of one that is written
+
+  /// A kernel that is written.
+  static KernelChoice written(const KernelFormula& formula) {
+    return {formula.label(), 0.0, std::make_shared<const KernelFormula>(formula)};
+  }
 
   /// @throws std::invalid_argument for a name that is none
-  const NamedKernel& row() const {
-    if (const NamedKernel* const found = find_kernel(name)) return *found;
-    throw std::invalid_argument("no kernel is named " + name);
+  AnyKernel kernel() const;
+  /// How sweeps take its moments.  @throws std::invalid_argument for a name that is none
+  SweepKernel::Form form() const;
+  /// What it was written as, in the study or in its row; null if it has a type of its own.
+  std::shared_ptr<const KernelFormula> its_formula() const;
+  /// What tells it from others of its family, if it is of one.
+  const KernelParameter* family() const {
+    const NamedKernel* const row = find_kernel(name);
+    return row != nullptr && row->parameter ? &*row->parameter : nullptr;
   }
   /// "inverse", "power(0.5)"; the name alone if it is none.
   std::string label() const;
@@ -120,7 +171,7 @@ struct KernelChoice {
 /// Calls `visit` with the kernel itself and returns what it returns.
 template <class Visit>
 auto with_kernel(const KernelChoice& choice, Visit&& visit) {
-  return std::visit(visit, choice.row().make(choice.parameter));
+  return std::visit(visit, choice.kernel());
 }
 
 /// The same where the kernel itself has to be integrable.

@@ -7,11 +7,6 @@
 
 namespace acstudy {
 
-std::string KernelChoice::label() const {
-  const NamedKernel* const row = find_kernel(name);
-  return row != nullptr && row->parameter ? fmt::format("{}({})", name, parameter) : name;
-}
-
 std::string scheme_label(const SchemeChoice& scheme, bool standing) {
   if (scheme.program != nullptr) return scheme.program->label;
   std::string text(scheme.model->name);

@@ -22,7 +22,7 @@ MISTAKES = {
                                   'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, mu, '
                                   'command, label, order, expect, timeout, inputs'),
     "unknown key of a kernel": (kernel('{ name = "power", alpha = 0.5, @beta = 1 }'),
-                                'unknown key "beta" in kernel; known keys: name, alpha'),
+                                'unknown key "beta" in kernel; known keys: name, alpha, profile, eta, breaks, exponent'),
     "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step, '
                               'safety, bound, expect'),
     "unknown key in [[path]]": (bad((SOURCE, '@target = "local"')),

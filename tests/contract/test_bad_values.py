@@ -6,13 +6,15 @@ from tests.bad_studies import (COARSE, FLOW, KERNEL, LEVELS, NAMES, PATH_TABLE, 
                                SCHEME_TABLE, STEP, Mistakes, bad, bad_delta, inline, kernel, kernel_ii)
 from tests.program import MODEL_II, STUDY, USE, edit
 
+KERNELS = ("inverse, power, cubic-spline, quartic-spline, quintic-spline, wendland-c2, wendland-c4, wendland-c6, "
+           "truncated-gaussian, constant, hat")
 MISTAKES = {
     # Schemes
-    "unknown kernel": (kernel('@"gauss"'), 'unknown kernel "gauss"; known kernels: inverse, power, cubic-spline'),
+    "unknown kernel": (kernel('@"gauss"'), f'unknown kernel "gauss"; known kernels: {KERNELS}'),
     "unknown kernel in a table": (kernel('{ name = @"gauss" }'),
-                                  'unknown kernel "gauss"; known kernels: inverse, power, cubic-spline'),
+                                  f'unknown kernel "gauss"; known kernels: {KERNELS}'),
     "unknown kernel with an exponent": (kernel('{ name = @"gauss", alpha = 0.5 }'),
-                                        'unknown kernel "gauss"; known kernels: inverse, power, cubic-spline'),
+                                        f'unknown kernel "gauss"; known kernels: {KERNELS}'),
     "kernel is a number": (kernel("@3"), 'kernel must be a string, not 3; write, for example, kernel = "inverse"'),
     "kernel without name": (kernel("@{ alpha = 0.5 }"),
                             'kernel has no "name"; write, for example, { name = "power", alpha = 0.5 }'),
@@ -27,6 +29,31 @@ MISTAKES = {
     "alpha is a string": (kernel('{ name = "power", alpha = @"half" }'), 'alpha must be a number, not "half"'),
     "alpha of the inverse kernel": (kernel('{ name = "inverse", alpha = @1 }'),
                                     "the inverse kernel has no alpha; leave it out"),
+    "kernel with a density that is no expression": (
+        kernel('{ profile = "(1-s)^3*(1+3*@r)" }'),
+        'profile = "(1-s)^3*(1+3*r)": unknown name "r"; it may use s, pi, e and the usual functions'),
+    "kernel with a density that increases": (
+        kernel('{ profile = "@s*(1-s)" }'), 'profile = "s*(1-s)": it increases, so that eta = -rho\' is negative, at s = '),
+    "kernel with a negative eta": (kernel('{ eta = "@1-2*s" }'), 'eta = "1-2*s": it is negative at s = '),
+    "kernel with a corner": (kernel('{ eta = "@max(0.3-s,0)" }'),
+                             'eta = "max(0.3-s,0)": it is not smooth near s = 0.3; name the points where it is not: '
+                             'breaks = [0.3]'),
+    "kernel with breaks in disorder": (kernel('{ eta = "1", breaks = [0.5, @0.25] }'),
+                                       "breaks contains 0.25 = 0.25; they are points between 0 and 1 in increasing order"),
+    "kernel that grows at 0": (kernel('{ eta = "@1/s" }'), 'eta = "1/s": it goes like s^-1 at s = 0, which no polynomial '
+                               'does; write exponent = 1, and for eta the rest'),
+    "kernel without a first moment": (kernel('{ eta = "1", exponent = @2 }'),
+                                      "exponent = 2; a kernel has a first moment only for one below 2"),
+    "kernel that Model II cannot have": (kernel_ii('{ eta = "1", exponent = @1.5 }'),
+                                         "exponent = 1.5; Model II needs an integrable kernel: exponent < 1"),
+    "kernel with a density and eta": (kernel('{ profile = "1-s", @eta = "1" }'),
+                                      "eta does not go with profile; leave one of them out"),
+    "kernel with a density and an exponent": (kernel('{ profile = "1-s", @exponent = 0.5 }'),
+                                              "exponent does not go with profile; leave one of them out"),
+    "kernel with a name and a text": (kernel('{ eta = "1", @name = "hat" }'),
+                                      "name does not go with eta; leave one of them out"),
+    "kernel with breaks of nothing": (kernel('{ @breaks = [0.5] }'),
+                                      'breaks goes with a kernel of your own; write eta = "exp(-s)"'),
     "inverse kernel in Model II": (
         kernel_ii('@"inverse"'), 'Model II needs an integrable kernel, and the inverse kernel is not; write '
         '"cubic-spline" or { name = "power", alpha = 0.5 } with alpha < 1'),

@@ -68,6 +68,10 @@ STUDIES = {
     "scan": '[study]\nname = "tiny"\n\n[scan]\nevery = 100\nseed = 1\n',
 }
 INLINE = {"kernel": 'kernel = { name = "power", alpha = 0.5 }',
+          "kernel.profile": 'kernel = { profile = "1-s" }',
+          "kernel.eta": 'kernel = { eta = "1-s" }',
+          "kernel.breaks": 'kernel = { eta = "1-s", breaks = "1/2" }',
+          "kernel.exponent": 'kernel = { eta = "1-s", exponent = 0.5 }',
           "start": 'start = { name = "jittered", smallest_gap = 0.1, seed = 1 }'}
 
 
@@ -99,7 +103,8 @@ class Keys(ProgramTest):
         outer, _, inner = key.partition(".")
         line = f"{outer} = {value}"
         if inner:
-            line, count = re.subn(rf'\b{inner} = [^,}}]*\b"?', f"{inner} = {value}", INLINE[outer], count=1)
+            line, count = re.subn(rf'\b{inner} = [^,}}]*\b"?', f"{inner} = {value}", INLINE.get(key, INLINE[outer]),
+                                 count=1)
             self.assertEqual(count, 1)
         end = next((i for i in range(top + 1, len(lines)) if not lines[i]), len(lines))
         others = [] if key == "use" else [old for old in lines[top + 1:end] if not old.startswith(f"{outer} =")]

@@ -87,10 +87,10 @@ TEST_CASE("viscous_rule has moments M_{p+1} / (p + 2): total weight 1/2, degree 
 
 TEST_CASE("a profile is its kernel") {
   const KernelProfile spline = profile(CubicSplineKernel{}), power = profile(PowerKernel(1.5));
-  CHECK(spline.breakpoint == 0.5);
+  CHECK(spline.breaks == std::vector{0.5});
   CHECK(spline.origin_exponent == 0.0);
   CHECK(spline.regular_part(0.3) == CubicSplineKernel{}.eta(0.3));
-  CHECK(power.breakpoint == 1.0);
+  CHECK(power.breaks.empty());
   CHECK(power.origin_exponent == 1.5);
   CHECK(power.regular_part(0.3) == 0.5);
 }

@@ -99,7 +99,14 @@ Swept readable_rates(const Case& c, const std::vector<double>& x, const std::vec
   return swept;
 }
 
-constexpr const char* all_kernels[] = {"inverse", "cubic-spline", "power"};
+const KernelChoice all_kernels[] = {{"inverse"},
+                                    {"cubic-spline"},
+                                    {"power", 0.5},
+                                    {"power", -1.0},
+                                    {"power", 1.5},
+                                    {"quintic-spline"},
+                                    KernelChoice::written({.text = "(1-s)^3*(1+3*s)", .density = true}),
+                                    KernelChoice::written({.text = "1 + s", .exponent = 1.0})};
 
 template <class Check>
 void for_each_case(Check check) {
@@ -109,17 +116,13 @@ void for_each_case(Check check) {
     const double period = scene->period(), h = period / static_cast<double>(N);
     for (const int model : {1, 2}) {
       for (const bool nonlocal : {false, true}) {
-        for (const char* const kernel : all_kernels) {
-          for (const double alpha : {0.5, -1.0, 1.5}) {
-            if (std::string(kernel) != "power" && alpha != 0.5) continue;
-            const KernelChoice choice{kernel, std::string(kernel) == "power" ? alpha : 0.0};
-            if (model == 2 && !integrable(choice)) continue;
-            for (const double delta : {1e-3 * h, 1.3 * h, 4.7 * h, 0.31 * period, 0.49 * period}) {
-              if (delta >= 0.5 * period) continue;
-              const Case c = case_on(scene, model, nonlocal, choice, N, delta);
-              seed += 2;
-              check(c, irregular_positions(N, period, seed), irregular_values(N, seed + 1));
-            }
+        for (const KernelChoice& kernel : all_kernels) {
+          if (model == 2 && !integrable(kernel)) continue;
+          for (const double delta : {1e-3 * h, 1.3 * h, 4.7 * h, 0.31 * period, 0.49 * period}) {
+            if (delta >= 0.5 * period) continue;
+            const Case c = case_on(scene, model, nonlocal, kernel, N, delta);
+            seed += 2;
+            check(c, irregular_positions(N, period, seed), irregular_values(N, seed + 1));
           }
         }
       }

@@ -4,6 +4,7 @@
 /// Moments of the kernels for several particles at a time.
 
 #include "solver/line/vector/lanes.hpp"
+#include "solver/line/vector/sweeps.hpp"
 
 namespace acstudy {
 inline namespace ACSTUDY_ISA {
@@ -63,6 +64,88 @@ struct CubicSplineLanes {
       return inner + p * p * p * (8.0 + 12.0 * p);
     }
   }
+};
+
+/// Polynomials on pieces, one of which is the current one: the walk says when all lanes are in it.
+class PiecewiseLanes {
+ public:
+  explicit PiecewiseLanes(const SweepPieces& pieces) : pieces_(pieces) {}
+
+  /// Ends of the current piece, in units of the horizon.
+  double begin() const { return pieces_.bounds[piece_]; }
+  double end() const { return pieces_.bounds[piece_ + 1]; }
+
+  static constexpr double moment_scale = 1.0;
+  template <KernelPiece piece>
+  ACSTUDY_ALWAYS_INLINE inline Lanes first_moment(Lanes z) {
+    return within<piece>(pieces_.moment, z);
+  }
+  template <KernelPiece piece>
+  ACSTUDY_ALWAYS_INLINE inline Lanes mass(Lanes z) {
+    return within<piece>(pieces_.mass, z);
+  }
+
+ private:
+  /// Anywhere: the piece of the nearest lane becomes the current one.
+  template <KernelPiece piece>
+  ACSTUDY_ALWAYS_INLINE inline Lanes within(const double* coefficients, Lanes z) {
+    if constexpr (piece == KernelPiece::inside) return polynomial(coefficients, piece_, z);
+    while (piece_ > 0 && !all_at_most(spread(begin()), z)) --piece_;
+    while (piece_ + 1 < pieces_.count && all_at_most(spread(end()), z)) ++piece_;
+    Lanes value = polynomial(coefficients, piece_, z);
+    for (std::ptrdiff_t i = piece_ + 1; i < pieces_.count; ++i) {
+      const Choice beyond = at_most(spread(pieces_.bounds[i]), z);
+      if (bits(beyond) == 0) break;
+      value = select(beyond, polynomial(coefficients, i, z), value);
+    }
+    return value;
+  }
+
+  /// Horner's rule, entered where the coefficients begin.
+  ACSTUDY_ALWAYS_INLINE inline Lanes polynomial(const double* coefficients, std::ptrdiff_t piece, Lanes z) const {
+    const double* const c = coefficients + piece * pieces_.terms;
+    const Lanes t = pieces_.direction[piece] * (z - pieces_.origin[piece]);
+    std::ptrdiff_t k = pieces_.terms - 1;
+    Lanes value = spread(c[k]);
+    for (; k > 12; --k) value = value * t + c[k - 1];
+    switch (k) {
+      case 12:
+        value = value * t + c[11];
+        [[fallthrough]];
+      case 11:
+        value = value * t + c[10];
+        [[fallthrough]];
+      case 10:
+        value = value * t + c[9];
+        [[fallthrough]];
+      case 9:
+        value = value * t + c[8];
+        [[fallthrough]];
+      case 8:
+        value = value * t + c[7];
+        [[fallthrough]];
+      case 7:
+        value = value * t + c[6];
+        [[fallthrough]];
+      case 6:
+        value = value * t + c[5];
+        [[fallthrough]];
+      case 5:
+        value = value * t + c[4];
+        [[fallthrough]];
+      case 4:
+        value = value * t + c[3];
+        [[fallthrough]];
+      case 3:
+        value = value * t + c[2];
+        [[fallthrough]];
+      default:
+        return (value * t + c[1]) * t + c[0];
+    }
+  }
+
+  SweepPieces pieces_;
+  std::ptrdiff_t piece_ = 0;
 };
 
 /// Any other kernel, one particle after the other.

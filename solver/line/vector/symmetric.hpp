@@ -37,8 +37,9 @@ class Symmetric {
       const Lanes viscosity = sweep_.mu * reach;
       const Midpoints midpoints(sweep_, j);
       SymmetricSums sum;
+      K kernel = kernel_;
       const auto mass = [&]<KernelPiece piece>(Lanes z)
-                            ACSTUDY_ALWAYS_INLINE { return kernel_.template mass<piece>(z); };
+                            ACSTUDY_ALWAYS_INLINE { return kernel.template mass<piece>(z); };
       const auto add = [&]<KernelPiece piece, int s>(Side<s>& side) ACSTUDY_ALWAYS_INLINE {
         pairs += side.count();
         const Neighbor neighbor = side.neighbor();
@@ -60,7 +61,7 @@ class Symmetric {
           sum.R_u_nonlocal += R * load(sweep_.nonlocal.u + i);
         }
       };
-      walk<K>(add, left, right);
+      walk(kernel, add, left, right);
       finish(j, sum);
     }
     return pairs;
@@ -107,6 +108,8 @@ std::int64_t symmetric_sweep_of(const SweepRange& range, const SymmetricSweep& s
 inline std::int64_t symmetric_sweep(const SweepRange& range, const SymmetricSweep& sweep) {
   const SweepKernel& kernel = sweep.kernel;
   if (kernel.form == SweepKernel::Form::cubic_spline) return symmetric_sweep_of(range, sweep, CubicSplineLanes{});
+  if (kernel.form == SweepKernel::Form::piecewise)
+    return symmetric_sweep_of(range, sweep, PiecewiseLanes(kernel.pieces));
   return symmetric_sweep_of(range, sweep, ScalarLanes(kernel.kernel, kernel.first_moment, kernel.mass));
 }
 

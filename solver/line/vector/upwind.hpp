@@ -48,8 +48,9 @@ class Upwind {
     const Viewpoint from{load(range_.x + j), inside, range_.delta, 1.0 / range_.delta};
     Side<s> side(range_.x + j, from, counted);
     UpwindSums sum;
+    K kernel = kernel_;
     const auto first_moment = [&]<KernelPiece piece>(Lanes z)
-                                  ACSTUDY_ALWAYS_INLINE { return kernel_.template first_moment<piece>(z); };
+                                  ACSTUDY_ALWAYS_INLINE { return kernel.template first_moment<piece>(z); };
     std::int64_t pairs = 0;
     const auto add = [&]<KernelPiece piece>(Side<s>& there) ACSTUDY_ALWAYS_INLINE {
       pairs += there.count();
@@ -63,7 +64,7 @@ class Upwind {
         sum.flux_nonlocal += W * load(sweep_.nonlocal.flux + i);
       }
     };
-    walk<K>(add, side);
+    walk(kernel, add, side);
     pairs_ += pairs;
     return sum;
   }
@@ -103,6 +104,8 @@ inline std::int64_t upwind_sweep(const SweepRange& range, const UpwindSweep& swe
       return upwind_with(range, sweep, InverseLanes{});
     case SweepKernel::Form::cubic_spline:
       return upwind_with(range, sweep, CubicSplineLanes{});
+    case SweepKernel::Form::piecewise:
+      return upwind_with(range, sweep, PiecewiseLanes(kernel.pieces));
     default:
       return upwind_with(range, sweep, ScalarLanes(kernel.kernel, kernel.first_moment, kernel.mass));
   }

@@ -3,6 +3,8 @@
 /// @file
 /// The walk of consecutive particles over their neighbors, all of them in step.
 
+#include <type_traits>
+
 #include "solver/line/vector/kernels.hpp"
 #include "solver/line/vector/lanes.hpp"
 
@@ -85,23 +87,32 @@ class Side {
 };
 
 /// Calls add<piece>(side), which has to step, for all neighbors on each side. Sides go in step as far as both have
-/// neighbors.
+/// neighbors. `kernel` is that of which `add` takes moments.
 template <class K, class Add, class... Sides>
-ACSTUDY_ALWAYS_INLINE inline void walk(const Add& add, Sides&... sides) {
+ACSTUDY_ALWAYS_INLINE inline void walk(const K& kernel, const Add& add, Sides&... sides) {
   const auto each = [&]<KernelPiece piece>() ACSTUDY_ALWAYS_INLINE { (add.template operator()<piece>(sides), ...); };
-  while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<KernelPiece::inside>();
-  if constexpr (K::breakpoint < 1.0) {
-    // Where few neighbors are inside, few are outside, and a loop of their own costs more than it saves.
-    const double outside = ((sides.neighbor().k > 4) && ...) ? K::breakpoint : 2.0;
-    while ((sides.goes_on() && ...) && !(sides.begins_beyond(outside) && ...))
-      each.template operator()<KernelPiece::any>();
-    while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::outside>();
-  } else {
-    while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::any>();
-  }
   const auto rest = [&](auto& side) ACSTUDY_ALWAYS_INLINE {
     while (side.goes_on()) add.template operator()<KernelPiece::any>(side);
   };
+  if constexpr (std::is_same_v<K, PiecewiseLanes>) {
+    while ((sides.goes_on() && ...)) {
+      if ((sides.begins_beyond(kernel.begin()) && ...)) {
+        while ((sides.ends_before(kernel.end()) && ...)) each.template operator()<KernelPiece::inside>();
+      }
+      each.template operator()<KernelPiece::any>();
+    }
+  } else {
+    while ((sides.ends_before(K::breakpoint) && ...)) each.template operator()<KernelPiece::inside>();
+    if constexpr (K::breakpoint < 1.0) {
+      // Where few neighbors are inside, few are outside, and a loop of their own costs more than it saves.
+      const double outside = ((sides.neighbor().k > 4) && ...) ? K::breakpoint : 2.0;
+      while ((sides.goes_on() && ...) && !(sides.begins_beyond(outside) && ...))
+        each.template operator()<KernelPiece::any>();
+      while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::outside>();
+    } else {
+      while ((sides.goes_on() && ...)) each.template operator()<KernelPiece::any>();
+    }
+  }
   if constexpr (sizeof...(sides) > 1) (rest(sides), ...);
 }
 

@@ -22,14 +22,24 @@ struct SweepGroup::Kernel {
   AnyKernel kernel;
   SweepKernel sweep;
 
-  explicit Kernel(const KernelChoice& choice) : kernel(choice.row().make(choice.parameter)) {
-    sweep.form = choice.row().form;
+  explicit Kernel(const KernelChoice& choice) : kernel(choice.kernel()) {
+    sweep.form = choice.form();
     std::visit(
         [&]<class K>(const K& k) {
           sweep.kernel = &k;
           sweep.first_moment = [](const void* itself, double z) {
             return static_cast<const K*>(itself)->first_moment(z);
           };
+          if constexpr (std::is_base_of_v<PiecewiseKernel, K>) {
+            const KernelPieces& pieces = k.pieces();
+            sweep.pieces = {.count = std::ssize(pieces.origin),
+                            .terms = static_cast<std::ptrdiff_t>(pieces.terms),
+                            .bounds = pieces.bounds.data(),
+                            .origin = pieces.origin.data(),
+                            .direction = pieces.direction.data(),
+                            .moment = pieces.moment.data(),
+                            .mass = pieces.mass.data()};
+          }
           if constexpr (IntegrableKernel<K>) {
             sweep.mass = [](const void* itself, double z) { return static_cast<const K*>(itself)->mass(z); };
           }
@@ -59,7 +69,7 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles, bool far
 }
 
 bool SweepGroup::far_pays(const Case& c, bool modes, bool both) {
-  const SweepKernel::Form kernel = c.scheme.kernel.row().form;
+  const SweepKernel::Form kernel = c.scheme.kernel.form();
   const double neighbors = c.delta / c.scene->period() * static_cast<double>(c.N);
   switch (c.scheme.model->vector_form) {
     case VectorForm::none:

@@ -33,6 +33,7 @@ struct Row {
 struct Column {
   std::string name;
   std::function<Measurement(const SchemeEntry&)> measurement;
+  bool of_theory = false;  ///< what it measures is said of the models of the paper alone
 };
 
 /// Errors of runs along a path, of the series of this number.
@@ -189,11 +190,12 @@ std::vector<Column> columns_without_runs(const Table& root, const std::shared_pt
     columns.push_back({"consistency, " + path.name,
                        [=](const SchemeEntry& entry) { return truncation_along(on_scene(entry), path); }});
   }
-  columns.push_back({"nearest neighbors", [=](const SchemeEntry& entry) {
-                       return nearest_neighbor_rows(on_scene(entry), resolutions.N, 0.5);
-                     }});
   columns.push_back(
-      {"first moment", [=](const SchemeEntry& entry) { return first_moment_is_one(on_scene(entry), resolutions); }});
+      {"nearest neighbors",
+       [=](const SchemeEntry& entry) { return nearest_neighbor_rows(on_scene(entry), resolutions.N, 0.5); }, true});
+  columns.push_back({"first moment",
+                     [=](const SchemeEntry& entry) { return first_moment_is_one(on_scene(entry), resolutions); },
+                     true});
   columns.push_back({"step norm", [=](const SchemeEntry& entry) {
                        return step_is_bounded(on_scene(entry), resolutions, StepCondition::corrected);
                      }});
@@ -238,7 +240,9 @@ void read_controls(const Table& root, Study& study) {
       return measurement;
     };
     std::vector<Cell> cells;
+    const ModelCard& model = *row.entry.scheme.model;
     for (std::size_t p = 0; p < columns.size(); ++p) {
+      if (model.own() && columns[p].of_theory) continue;
       if (p < paths.size()) {
         const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
         study.series.push_back(make_series(study, time, row.entry, paths[p], at_delta));

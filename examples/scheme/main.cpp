@@ -1,0 +1,1 @@
+#include "renormalized_upwind.hpp"

@@ -109,7 +109,7 @@ class Spawn {
 
 /// Reads what is there, but not much at once, so that nothing else waits; closes the stream at its end.
 void read_some(Descriptor& stream, std::string& to) {
-  std::array<char, 1 << 16> block;  // NOLINT: filled by read()
+  std::array<char, 1 << 16> block;
   const ssize_t count = ::read(stream.number(), block.data(), block.size());
   if (count > 0) to.append(block.data(), static_cast<std::size_t>(count));
   if (count == 0) stream.close();

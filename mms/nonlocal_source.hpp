@@ -76,13 +76,13 @@ class NonlocalSource : public Source {
   std::int64_t quadrature_points_ = 0;
 };
 
-/// The same as a statement in another language: f = what it is.
+/// The same as a statement in another language: sum = what it is.
 inline code::Statement material_terms(const Scene& scene, const NonlocalModel& model, const code::Language& in) {
   std::string f = call(in, "u_t", "x, t");
-  if (scene.standing()) return {"f", f};
+  if (scene.standing()) return {"sum", f};
   f += " + " + call(in, "b", "x") + "*" + call(in, "u_x", "x, t");
   if (!model.nonlocal_divergence) f += " + " + call(in, "b_x", "x") + "*" + call(in, "u", "x, t");
-  return {"f", f};
+  return {"sum", f};
 }
 
 }  // namespace acstudy

@@ -136,12 +136,11 @@ class FunctionWriter {
   Body body_;
 };
 
-/// f = u_t + (c u)_x in every frame, or the given f.
-SourceFormula local_formula(const Scene& scene, const Language& in) {
-  if (!scene.solved()) return {{{"f", scene.sourceless() ? in.number(0.0) : call(in, "given_f", "x, t")}}, {}, {}};
+/// f = u_t + (c u)_x in every frame.
+SourceFormula local_formula(const Language& in) {
   const auto of = [&](const char* name, const char* arguments) { return call(in, name, arguments); };
-  return {{{"f", fmt::format("{} + {}*{} + {}*{}", of("u_t", "x, t"), of("c", "x"), of("u_x", "x, t"), of("c_x", "x"),
-                             of("u", "x, t"))}},
+  return {{{"sum", fmt::format("{} + {}*{} + {}*{}", of("u_t", "x, t"), of("c", "x"), of("u_x", "x, t"), of("c_x", "x"),
+                               of("u", "x, t"))}},
           {},
           {}};
 }
@@ -155,7 +154,7 @@ std::vector<Function> functions_of(const Scene& scene) {
     all.push_back(all.back().derivative(name + "_x", 0));
   };
   with_slope("c", text.c);
-  if (!scene.standing()) with_slope("b", *text.b);
+  with_slope("b", scene.standing() ? "0" : *text.b);
   with_slope("c_hat", scene.standing() ? text.c : fmt::format("({}) - ({})", text.c, *text.b));
   all.push_back(all[all.size() - 2].sign("side"));
   const std::vector<std::string> x_t = {"x", "t"};
@@ -165,14 +164,14 @@ std::vector<Function> functions_of(const Scene& scene) {
     for (const Function& one : {u, u.derivative("u_x", 0), u.derivative("u_t", 1)}) all.push_back(one);
   } else {
     all.emplace_back("u0", *text.u0, std::vector<std::string>{"x"});
-    if (text.f) all.emplace_back("given_f", *text.f, x_t);
+    all.emplace_back("f", text.f.value_or("0"), x_t);
   }
   return all;
 }
 
 /// Whether a function of the scene is called by a formula, or is what a solver asks for.
 bool wanted(const std::string& name, const SourceFormula& formula, const Language& language) {
-  for (const char* const always : {"c", "b", "flow", "u", "u0"}) {
+  for (const char* const always : {"c", "b", "flow", "u", "u0", "f"}) {
     if (name == always) return true;
   }
   // Behind a letter it is the end of another name.
@@ -202,8 +201,8 @@ std::string scene_code(const Scene& scene, const NonlocalModel* model, const Lan
   SourceFormula formula;
   if (model != nullptr) {
     formula = model->continuum->formula(scene, *model, sufficient_points(scene, *model), language);
-  } else {
-    formula = local_formula(scene, language);
+  } else if (scene.solved()) {
+    formula = local_formula(language);
   }
   Program program{
       .about = about, .constants = {{"period", scene.period()}, {"final_time", scene.T()}}, .functions = {}};
@@ -211,7 +210,7 @@ std::string scene_code(const Scene& scene, const NonlocalModel* model, const Lan
   for (const Function& one : functions_of(scene)) {
     if (wanted(one.name(), formula, language)) program.functions.push_back(FunctionWriter(one, language).body());
   }
-  program.functions.push_back({"source", {"x", "t"}, formula.first, formula.sums, "f"});
+  if (scene.solved()) program.functions.push_back({"f", {"x", "t"}, formula.first, formula.sums, "sum"});
   return language.write(program);
 }
 

@@ -13,7 +13,8 @@
 
 namespace acstudy::code {
 
-/// How a source is computed from the functions of a scene, which its statements call by `call`.
+/// How a source is computed from the functions of a scene, which its statements call by `call`; what they add up is
+/// `sum`.
 struct SourceFormula {
   std::vector<Statement> first;
   std::vector<Sum> sums;
@@ -23,9 +24,9 @@ struct SourceFormula {
 /// Writes a function of the scene at some arguments: "c_hat(x - 0.5*z)". The names are
 ///
 ///     c, c_x, b, b_x, c_hat, c_hat_x, side   of x; side is 1 where c_hat > 0, and -1 elsewhere
-///     u, u_x, u_t, f                         of x and t
+///     u, u_x, u_t                            of x and t
 ///
-/// Those of b are there only where particles move; numbers in a statement that are neither 0.5 nor whole belong into
+/// Numbers in a statement that are neither 0.5 nor whole belong into
 /// the constants.
 std::string call(const Language& language, const std::string& name, const std::string& arguments);
 

@@ -64,12 +64,12 @@ code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std:
   code::Sum sum{"gauss", derivative_rule(model.kernel, points), {}};
   sum.each.push_back(
       {"y", fmt::format("x - {}*{}*{}", call(in, "side", "x"), in.own("delta"), in.entry("gauss", "node"))});
-  sum.each.push_back({"f",
+  sum.each.push_back({"sum",
                       fmt::format("{}*({}*{} + {}*{})", weight, at_y("c_hat_x"), at_y("u", "y, t"), at_y("c_hat"),
                                   at_y("u_x", "y, t")),
                       true});
   if (model.nonlocal_divergence && !scene.standing()) {
-    sum.each.push_back({"f", fmt::format("{}*{}*{}", weight, at_y("b_x"), call(in, "u", "x, t")), true});
+    sum.each.push_back({"sum", fmt::format("{}*{}*{}", weight, at_y("b_x"), call(in, "u", "x, t")), true});
   }
   return {{material_terms(scene, model, in)}, {sum}, {{"delta", model.delta}}};
 }

@@ -79,15 +79,15 @@ code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std:
   sum.each.push_back({"z", fmt::format("{}*{}", delta, in.entry("gauss", "node"))});
   viscous.each.push_back({"z", fmt::format("{}*{}", delta, in.entry("viscous", "node"))});
   for (const auto& [midpoint, y] : {std::pair("x - 0.5*z", "x - z, t"), std::pair("x + 0.5*z", "x + z, t")}) {
-    sum.each.push_back({"f",
+    sum.each.push_back({"sum",
                         fmt::format("0.5*{}*(0.5*{}*({} + {}) + {}*{})", weight, of("c_hat_x", midpoint),
                                     of("u", "x, t"), of("u", y), of("c_hat", midpoint), of("u_x", y)),
                         true});
     if (model.nonlocal_divergence && !scene.standing()) {
-      sum.each.push_back({"f", fmt::format("0.5*{}*{}*{}", weight, of("b_x", midpoint), of("u", "x, t")), true});
+      sum.each.push_back({"sum", fmt::format("0.5*{}*{}*{}", weight, of("b_x", midpoint), of("u", "x, t")), true});
     }
   }
-  viscous.each.push_back({"f",
+  viscous.each.push_back({"sum",
                           fmt::format("(-0.5)*{}*{}*{}*({} - {})/z", delta, in.own("mu"), in.entry("viscous", "weight"),
                                       of("u_x", "x + z, t"), of("u_x", "x - z, t")),
                           true});

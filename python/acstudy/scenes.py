@@ -68,7 +68,7 @@ class Scene:
         options = {"--model": model, "--divergence": divergence, "--kernel": kernel, "--delta": delta, "--mu": mu}
         words = [word for option, value in options.items() if value is not None for word in (option, str(value))]
         code = self._code("--source", "nonlocal", *words) if words else self._code()
-        return code["source"](np.asarray(x, float), t)
+        return code["f"](np.asarray(x, float), t)
 
     def _function(self, name: str) -> Callable[..., np.ndarray]:
         try:

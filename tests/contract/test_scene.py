@@ -53,7 +53,7 @@ C_MAIN = """
 #include <stdio.h>
 int main(void) {
   double x;
-  while (scanf("%lf", &x) == 1) printf("%.17g %.17g %.17g\\n", scene_c(x), scene_u(x, TIME), scene_source(x, TIME));
+  while (scanf("%lf", &x) == 1) printf("%.17g %.17g %.17g\\n", scene_c(x), scene_u(x, TIME), scene_f(x, TIME));
 }
 """
 FORTRAN_MAIN = """
@@ -65,14 +65,14 @@ program main
   do
     read (*, *, iostat=status) x
     if (status /= 0) exit
-    print '(3es26.17e3)', c(x), u(x, TIME), source(x, TIME)
+    print '(3es26.17e3)', c(x), u(x, TIME), f(x, TIME)
   end do
 end program main
 """
 JULIA_MAIN = """
 for line in eachline()
     x = parse(Float64, line)
-    println(Scene.c(x), " ", Scene.u(x, TIME), " ", Scene.source(x, TIME))
+    println(Scene.c(x), " ", Scene.u(x, TIME), " ", Scene.f(x, TIME))
 end
 """
 
@@ -120,7 +120,7 @@ class SceneTest(ProgramTest):
             scene = importlib.util.module_from_spec(spec)
             spec.loader.exec_module(scene)
             x = np.array(POINTS)
-            return scene.c(x), scene.u(x, TIME), scene.source(x, TIME)
+            return scene.c(x), scene.u(x, TIME), scene.f(x, TIME)
 
         self.compare("python", evaluate)
 
@@ -183,7 +183,7 @@ class SceneTest(ProgramTest):
             for name, body in scene["functions"].items():
                 names[name] = define(body)
             return ([names["c"](x) for x in POINTS], [names["u"](x, TIME) for x in POINTS],
-                    [names["source"](x, TIME) for x in POINTS])
+                    [names["f"](x, TIME) for x in POINTS])
 
         self.compare("json", evaluate)
 
@@ -197,7 +197,7 @@ class SceneTest(ProgramTest):
         self.assertNotIn("def u(", code)
         names = {}
         exec(code, names)
-        self.assertAlmostEqual(float(names["source"](1.0, 0.25)), math.sin(0.75), places=14)
+        self.assertAlmostEqual(float(names["f"](1.0, 0.25)), math.sin(0.75), places=14)
 
     def test_kernels_with_parameters_are_written_as_in_studies(self):
         code = self.printed("lee-du-2019", "--source", "nonlocal", "--model", "2", "--divergence", "local", "--delta",
@@ -212,7 +212,6 @@ class SceneTest(ProgramTest):
                 (["lee-du", "--language", "c"], 'unknown scene "lee-du"'),
                 (["no.toml", "--language", "c"], "no.toml: cannot be read"),
                 (["lee-du-2019", "--language", "pascal"], '"pascal" is none of python'),
-                (["lee-du-2019", "--delta", "0.1", "--language", "c"], "add --source nonlocal"),
                 (["lee-du-2019", *nonlocal_], "needs a horizon"),
                 (["lee-du-2019", *nonlocal_, "--delta", "4"], "below half the period"),
                 (["lee-du-2019", *nonlocal_, "--delta", "0.1"], "model"),

@@ -57,13 +57,7 @@ SchemeEntry scheme_of(const SceneRequest& request, const Scene& scene) {
 
 /// Absent: the source is local, or given.
 std::optional<NonlocalModel> model_of(const SceneRequest& request, const Scene& scene, std::string& words) {
-  const bool any = request.model || request.divergence || request.kernel || request.delta || request.mu;
-  if (request.source == "local") {
-    if (any) {
-      throw InputError(
-          "--model, --divergence, --kernel, --delta and --mu are of a nonlocal source; add --source nonlocal, or leave "
-          "them out");
-    }
+  if (request.source == "local") {  // that of every model
     words = scene.solved() ? "of the PDE" : "as given";
     return {};
   }
@@ -159,7 +153,7 @@ Command scene_command() {
            {.name = "--mu", .target = &r->mu, .help = "viscosity bound of Model II, max |c - b| by default"},
            {.name = "--language",
             .target = &r->language,
-            .help = "print functions c, b, u and source in it",
+            .help = "print functions c, b, u and f, the source, in it",
             .one_of = code::language_names()},
            {.name = "--time", .target = &r->time, .help = "with --at: the time", .type = "T"},
            {.name = "--at",
@@ -169,7 +163,7 @@ Command scene_command() {
             .needs = {"--time"},
             .excludes = {"--language"}}},
           [r](const std::string&) { return print_scene(*r); },
-          {{"scene lee-du-2019 --language fortran > scene.f90", "a module with c, b, u and the source of the PDE"},
+          {{"scene lee-du-2019 --language fortran > scene.f90", "a module with c, b, u and the source f of the PDE"},
            {"scene study.toml --at points.csv --time 1", "values at points, of the scene of a study"}}};
 }
 

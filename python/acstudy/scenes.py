@@ -43,8 +43,7 @@ class Scene:
 
     def b(self, x: ArrayLike) -> np.ndarray:
         """Velocity of the particles, 0 where they stand still."""
-        x = np.asarray(x, float)
-        return self._function("b")(x) if "b" in self._code() else np.zeros_like(x)
+        return self._function("b")(np.asarray(x, float))
 
     def u(self, x: ArrayLike, t: float) -> np.ndarray:
         """Exact solution. ValueError where none is known."""

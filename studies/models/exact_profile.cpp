@@ -124,8 +124,8 @@ ExactProfile::ExactProfile(KernelFormula formula)
     const double point = static_cast<double>(evaluate(parse("breaks", formula_.breaks[k], {}, k), 0).value);
     if (!(point > ends_.back() && point < 1.0)) {
       throw KernelError("breaks",
-                        fmt::format("breaks contains {} = {}; they are points between 0 and 1 in increasing order",
-                                    formula_.breaks[k], point),
+                        fmt::format("breaks contains {}; they are points between 0 and 1 in increasing order",
+                                    formula_.breaks[k]),
                         0, k);
     }
     ends_.push_back(point);

@@ -39,20 +39,20 @@ MISTAKES = {
                              'eta = "max(0.3-s,0)": it is not smooth near s = 0.3; name the points where it is not: '
                              'breaks = [0.3]'),
     "kernel with breaks in disorder": (kernel('{ eta = "1", breaks = [0.5, @0.25] }'),
-                                       "breaks contains 0.25 = 0.25; they are points between 0 and 1 in increasing order"),
+                                       "breaks contains 0.25; they are points between 0 and 1 in increasing order"),
     "kernel that grows at 0": (kernel('{ eta = "@1/s" }'), 'eta = "1/s": it goes like s^-1 at s = 0, which no polynomial '
                                'does; write exponent = 1, and for eta the rest'),
     "kernel without a first moment": (kernel('{ eta = "1", exponent = @2 }'),
                                       "exponent = 2; a kernel has a first moment only for one below 2"),
     "kernel that Model II cannot have": (kernel_ii('{ eta = "1", exponent = @1.5 }'),
                                          "exponent = 1.5; Model II needs an integrable kernel: exponent < 1"),
-    "kernel with a density and eta": (kernel('{ profile = "1-s", @eta = "1" }'),
+    "kernel with a density and eta": (kernel('{ profile = "1-s", eta = @"1" }'),
                                       "eta does not go with profile; leave one of them out"),
-    "kernel with a density and an exponent": (kernel('{ profile = "1-s", @exponent = 0.5 }'),
+    "kernel with a density and an exponent": (kernel('{ profile = "1-s", exponent = @0.5 }'),
                                               "exponent does not go with profile; leave one of them out"),
-    "kernel with a name and a text": (kernel('{ eta = "1", @name = "hat" }'),
+    "kernel with a name and a text": (kernel('{ eta = "1", name = @"hat" }'),
                                       "name does not go with eta; leave one of them out"),
-    "kernel with breaks of nothing": (kernel('{ @breaks = [0.5] }'),
+    "kernel with breaks of nothing": (kernel('{ breaks = @[0.5] }'),
                                       'breaks goes with a kernel of your own; write eta = "exp(-s)"'),
     "inverse kernel in Model II": (
         kernel_ii('@"inverse"'), 'Model II needs an integrable kernel, and the inverse kernel is not; write '

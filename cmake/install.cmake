@@ -26,7 +26,7 @@ install(DIRECTORY reports/judging DESTINATION include/acstudy/reports FILES_MATC
 
 install(TARGETS acstudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY studies examples DESTINATION ${CMAKE_INSTALL_DATADIR}/acstudy FILES_MATCHING
-        PATTERN "*.toml" PATTERN "*.py" PATTERN "*.c" PATTERN "*.f90" PATTERN "examples/scheme/*" PATTERN "*.md"
+        PATTERN "*.toml" PATTERN "*.py" PATTERN "*.c" PATTERN "*.f90" PATTERN "*.hpp" PATTERN "*.cpp" PATTERN "CMakeLists.txt" PATTERN "*.md"
         PATTERN "__pycache__" EXCLUDE PATTERN "out" EXCLUDE)
 install(DIRECTORY reports DESTINATION ${CMAKE_INSTALL_DATADIR}/acstudy PATTERN "out" EXCLUDE PATTERN "judging" EXCLUDE
         PATTERN "__pycache__" EXCLUDE)

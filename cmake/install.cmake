@@ -25,8 +25,8 @@ install(DIRECTORY solver mms studies DESTINATION include/acstudy FILES_MATCHING 
 install(DIRECTORY reports/judging DESTINATION include/acstudy/reports FILES_MATCHING PATTERN "*.hpp")
 
 install(TARGETS acstudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY studies examples DESTINATION ${CMAKE_INSTALL_DATADIR}/acstudy FILES_MATCHING
-        PATTERN "*.toml" PATTERN "*.py" PATTERN "*.c" PATTERN "*.f90" PATTERN "*.hpp" PATTERN "*.cpp" PATTERN "CMakeLists.txt" PATTERN "*.md"
-        PATTERN "__pycache__" EXCLUDE PATTERN "out" EXCLUDE)
+install(DIRECTORY studies DESTINATION ${CMAKE_INSTALL_DATADIR}/acstudy FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/acstudy PATTERN "out" EXCLUDE PATTERN "build" EXCLUDE
+        PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY reports DESTINATION ${CMAKE_INSTALL_DATADIR}/acstudy PATTERN "out" EXCLUDE PATTERN "judging" EXCLUDE
         PATTERN "__pycache__" EXCLUDE)

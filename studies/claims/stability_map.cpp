@@ -218,6 +218,7 @@ bool entries_are_promised(const Subject& subject, const Integrator& integrator, 
                           const Constants& constants, double dt) {
   const double radius = monotonicity_radius(integrator);
   const bool any_step = std::isinf(radius), within = frozen.rows > 0.0 && dt <= radius * frozen.rows * (1.0 + 1e-12);
+  if (subject.scheme.model->own()) return constants.C == 0.0 && (any_step || within);
   if (subject.scheme.model->upwind) return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
   return within && (any_step ? constants.C * dt < 1.0 : constants.C == 0.0);
 }

@@ -1,10 +1,10 @@
 """A scheme from outside: built against an installed acstudy, named by studies, examined by every kind that can."""
 
 import json
-import os
 from pathlib import Path
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -109,7 +109,7 @@ class OwnScheme(unittest.TestCase):
 
     def test_a_report_has_it(self):
         self.results(self.right, "convergence", "controls")
-        python = os.environ.get("PYTHON", "python3")
+        python = sys.executable
         report = self.prefix / "share" / "acstudy" / "reports" / "report.py"
         do(python, report, self.folder / "out-right")
         page = (self.folder / "out-right" / "index.html").read_text(encoding="utf-8")

@@ -146,7 +146,9 @@ HundredDigits ExactProfile::eta(const HundredDigits& s) const {
 HundredDigits ExactProfile::integral(int power, const HundredDigits& from, const HundredDigits& to) const {
   const auto smooth = [&](const HundredDigits& a, const HundredDigits& b) {
     const auto integrand = [&](const HundredDigits& s) { return power == 0 ? eta(s) : HundredDigits(s * eta(s)); };
-    return boost::math::quadrature::gauss<HundredDigits, 15>::integrate(integrand, a, b);
+    using boost::math::quadrature::gauss;
+    return b - a < 1e-3 ? gauss<HundredDigits, 7>::integrate(integrand, a, b)
+                        : gauss<HundredDigits, 15>::integrate(integrand, a, b);
   };
   HundredDigits sum = 0;
   for (std::size_t k = 0; k + 1 < ends_.size(); ++k) {

@@ -166,6 +166,7 @@ TEST_CASE("a text that is no kernel is refused, with the reason", "[formula]") {
   refused(profile("1/s"), "write exponent = 1");
   refused(profile("sqrt(s)"), "write exponent = -0.5");
   refused(density("2 - sqrt(s)"), "its slope goes like s^-0.5 at s = 0");
+  refused(profile("1/(1-s)"), "not smooth near s = 1");
   refused(profile("log(s - 2)"), "it is not finite at s = ");
   refused(profile("1", 2.0), "exponent = 2");
   refused(density("max(0.3 - s, 0)"), "breaks = [0.3]");

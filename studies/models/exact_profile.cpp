@@ -123,10 +123,10 @@ ExactProfile::ExactProfile(KernelFormula formula)
   for (std::size_t k = 0; k < formula_.breaks.size(); ++k) {
     const double point = static_cast<double>(evaluate(parse("breaks", formula_.breaks[k], {}, k), 0).value);
     if (!(point > ends_.back() && point < 1.0)) {
-      throw KernelError("breaks",
-                        fmt::format("breaks contains {}; they are points between 0 and 1 in increasing order",
-                                    formula_.breaks[k]),
-                        0, k);
+      throw KernelError(
+          "breaks",
+          fmt::format("breaks contains {}; they are points between 0 and 1 in increasing order", formula_.breaks[k]), 0,
+          k);
     }
     ends_.push_back(point);
   }
@@ -146,7 +146,9 @@ HundredDigits ExactProfile::eta(const HundredDigits& s) const {
 HundredDigits ExactProfile::integral(int power, const HundredDigits& from, const HundredDigits& to) const {
   const auto smooth = [&](const HundredDigits& a, const HundredDigits& b) {
     const auto integrand = [&](const HundredDigits& s) { return power == 0 ? eta(s) : HundredDigits(s * eta(s)); };
-    return boost::math::quadrature::gauss<HundredDigits, 30>::integrate(integrand, a, b);
+    using boost::math::quadrature::gauss;
+    return b - a < 1e-3 ? gauss<HundredDigits, 7>::integrate(integrand, a, b)
+                        : gauss<HundredDigits, 15>::integrate(integrand, a, b);
   };
   HundredDigits sum = 0;
   for (std::size_t k = 0; k + 1 < ends_.size(); ++k) {
@@ -161,7 +163,7 @@ HundredDigits ExactProfile::integral(int power, const HundredDigits& from, const
       continue;
     }
     // By octaves down to where nothing but the power is left of the singularity at 0.
-    for (int octave = 0; end > 2 * begin && octave < 80; ++octave, end /= 2) sum += smooth(end / 2, end);
+    for (int octave = 0; end > 2 * begin && octave < 50; ++octave, end /= 2) sum += smooth(end / 2, end);
     const HundredDigits p = power + 1 - HundredDigits(formula_.exponent);
     sum += begin == 0 ? HundredDigits(regular_part(end / 2) * pow(end, p) / p) : smooth(begin, end);
   }

@@ -135,8 +135,8 @@ class PiecesOf {
       return first ? profile_.regular_part(t) : profile_.eta(piece.origin + piece.direction * t);
     };
     const double order = centered ? 0.0 : zero_order(f);
-    const int zeros =
-        std::abs(order - std::round(order)) < 1e-6 && order < 12.5 ? static_cast<int>(std::round(order)) : 0;
+    const bool whole = std::abs(order - std::round(order)) < 1e-6 && order > 0.5 && order < 12.5;
+    const int zeros = whole ? static_cast<int>(std::round(order)) : 0;
     const auto point = [&](int i, int count) -> HundredDigits {
       return middle +
              length / 2 *
@@ -167,8 +167,8 @@ class PiecesOf {
       const HundredDigits at = point(i, samples), exact = f(at), z = piece.origin + piece.direction * at;
       const HundredDigits s_eta = first ? HundredDigits(z * profile_.eta(z)) : HundredDigits(z * exact);
       refuse_negative(s_eta, static_cast<double>(z));
-      const HundredDigits size =
-          to_largest && z > 0 ? HundredDigits(largest_ * abs(exact / s_eta)) : HundredDigits(abs(exact));
+      HundredDigits size = abs(exact);
+      if (to_largest && s_eta != 0) size = std::max(size, HundredDigits(largest_ * abs(exact / s_eta)));
       HundredDigits sum = 0, dropped = 0, power = 1;
       if (!(abs(value(c, at) - exact) <= round_off * size)) return false;
       for (std::size_t k = 0; k < c.size(); ++k, power *= abs(at)) sum += abs(c[k]) * power;

@@ -33,8 +33,10 @@ MISTAKES = {
         kernel('{ profile = "(1-s)^3*(1+3*@r)" }'),
         'profile = "(1-s)^3*(1+3*r)": unknown name "r"; it may use s, pi, e and the usual functions'),
     "kernel with a density that increases": (
-        kernel('{ profile = "@s*(1-s)" }'), 'profile = "s*(1-s)": it increases, so that eta = -rho\' is negative, at s = '),
-    "kernel with a negative eta": (kernel('{ eta = "@1-2*s" }'), 'eta = "1-2*s": it is negative at s = '),
+        kernel('{ profile = "@s*(1-s)" }'), 'profile = "s*(1-s)": it increases, so that eta = -rho\' is negative, '
+        'at s = 0.2422; both models need a kernel that is nowhere negative'),
+    "kernel with a negative eta": (kernel('{ eta = "@1-2*s" }'), 'eta = "1-2*s": it is negative at s = 0.9922; both models need a '
+                                   'kernel that is nowhere negative: a density goes by the name profile'),
     "kernel with a corner": (kernel('{ eta = "@max(0.3-s,0)" }'),
                              'eta = "max(0.3-s,0)": it is not smooth near s = 0.3; name the points where it is not: '
                              'breaks = [0.3]'),

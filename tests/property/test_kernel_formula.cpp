@@ -87,6 +87,14 @@ TEST_CASE("named and written kernels are the kernels that have types of their ow
   }
   // A power in front of what is singular makes it less so.
   agree("power -1/2", integrable_kernel(profile("s^2", 1.5)), IntegrablePowerKernel(-0.5));
+  // (8/3)^-1 (s^-3/2 + s^-1/2), of two members of the power family.
+  const auto sum = std::get<PiecewiseKernel>(make_kernel(profile("1 + s", 1.5)));
+  bool sums = true;
+  for_each_cell([&](const Cell& cell) {
+    const double exact = 0.75 * PowerKernel(1.5).first_moment(cell) + 0.25 * PowerKernel(0.5).first_moment(cell);
+    sums = sums && std::abs(sum.first_moment(cell) - exact) <= few_units * exact;
+  });
+  CHECK(sums);
   // Negative control: another kernel does not agree.
   const auto hat = integrable_kernel(density("(1-s)^2"));
   CHECK(std::abs(hat.eta(0.5) - IntegrablePowerKernel(0.0).eta(0.5)) > 0.5);
@@ -115,14 +123,12 @@ TEST_CASE("weights of named and written kernels keep their digits from 1e-12 to 
   }
   CHECK(kernels.size() == 8);
   kernels.push_back(KernelChoice::written(density("1 + cos(pi*s)")));
-  kernels.push_back(KernelChoice::written(profile("exp(-s)", 0.5)));
   kernels.push_back(KernelChoice::written(profile("min(1, 2 - 2*s)", 0.0, {"0.5"})));
-  kernels.push_back(KernelChoice::written(profile("1 + s", 1.5)));
   for (const KernelChoice& kernel : kernels) {
     INFO(kernel.label());
-    // Of the other texts a reference in 100 digits takes long.
+    // The reference of other texts, in 100 digits, takes long.
     const std::vector<double> ratios =
-        kernel.formula == nullptr ? std::vector{1e-12, 0.5, 1.0, 2.5, 33.3, 1e4} : std::vector{1e-12, 0.5, 2.5, 12.3};
+        kernel.formula == nullptr ? std::vector{1e-12, 0.5, 2.5, 1e4} : std::vector{1e-12, 0.5, 2.5, 12.3};
     for (const ModelCard* const model : {&model_one, &model_two}) {
       if (model->needs_integrable_kernel() && !integrable(kernel)) continue;
       const Finding finding = round_off_of_weights({model, kernel}, ratios, CellForm::factored).take();
@@ -160,6 +166,7 @@ TEST_CASE("a text that is no kernel is refused, with the reason", "[formula]") {
   refused(profile("1/s"), "write exponent = 1");
   refused(profile("sqrt(s)"), "write exponent = -0.5");
   refused(density("2 - sqrt(s)"), "its slope goes like s^-0.5 at s = 0");
+  refused(profile("1/(1-s)"), "not smooth near s = 1");
   refused(profile("log(s - 2)"), "it is not finite at s = ");
   refused(profile("1", 2.0), "exponent = 2");
   refused(density("max(0.3 - s, 0)"), "breaks = [0.3]");

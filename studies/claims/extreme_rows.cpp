@@ -77,7 +77,7 @@ double step_at_cfl_one(Subject subject, const std::vector<double>& x, double del
 State run_freely(const Subject& subject, State start, double delta, double T, std::int64_t steps, const Seen& seen) {
   const Scene& scene = *subject.scene;
   const std::size_t count = start.x.size();
-  const std::unique_ptr<AnyScheme> scheme = make_scheme(subject.scheme, scene, subject.mu);
+  const std::unique_ptr<LineScheme> scheme = make_scheme(subject.scheme, scene, subject.mu);
   Particles particles(count, scene.period(), delta);
   std::optional<Trajectories> trajectories;
   if (!scene.standing()) trajectories.emplace(scene, start.x);

@@ -13,7 +13,7 @@ namespace acstudy {
 namespace {
 
 template <class Mistake>
-std::unique_ptr<AnyScheme> model1(const SchemeChoice& choice, const Scene& scene, double) {
+std::unique_ptr<LineScheme> model1(const SchemeChoice& choice, const Scene& scene, double) {
   const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
     return wrong_sum_on(controls::ModelI<K, Divergence, Mistake>(kernel), scene);
   };
@@ -21,7 +21,7 @@ std::unique_ptr<AnyScheme> model1(const SchemeChoice& choice, const Scene& scene
 }
 
 template <class Mistake>
-std::unique_ptr<AnyScheme> model2(const SchemeChoice& choice, const Scene& scene, double mu) {
+std::unique_ptr<LineScheme> model2(const SchemeChoice& choice, const Scene& scene, double mu) {
   const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
     return wrong_sum_on(controls::ModelII<K, Divergence, Mistake>(kernel, mu), scene);
   };
@@ -29,7 +29,7 @@ std::unique_ptr<AnyScheme> model2(const SchemeChoice& choice, const Scene& scene
 }
 
 template <bool viscous>
-std::unique_ptr<AnyScheme> sph(const SchemeChoice& choice, const Scene& scene, double mu) {
+std::unique_ptr<LineScheme> sph(const SchemeChoice& choice, const Scene& scene, double mu) {
   const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
     return wrong_sum_on(controls::ClassicalSph<K, Divergence>(kernel, viscous ? mu : 0.0), scene);
   };

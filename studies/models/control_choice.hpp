@@ -14,7 +14,7 @@
 
 namespace acstudy {
 
-class AnyScheme;
+class LineScheme;
 
 /// A mistake in scheme 1, the local divergence: in the sums, in the velocities, in the source or in the trajectories.
 struct Control {
@@ -22,7 +22,7 @@ struct Control {
   const ModelCard* model;  ///< whose mistake it is; null for any
   std::string_view mistake;
   /// The scheme with the mistake in its sums; null where it has its own.  @param scene  outlives the scheme
-  std::unique_ptr<AnyScheme> (*make)(const SchemeChoice&, const Scene& scene, double mu) = nullptr;
+  std::unique_ptr<LineScheme> (*make)(const SchemeChoice&, const Scene& scene, double mu) = nullptr;
   controls::Forgotten forgotten = controls::Forgotten::nothing;
   double source_factor = 1.0;
   const char* flow = nullptr;       ///< in the place of the scene's

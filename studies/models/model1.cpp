@@ -12,7 +12,7 @@ namespace acstudy {
 
 namespace {
 
-std::unique_ptr<AnyScheme> make(const SchemeChoice& choice, const Scene& scene, double) {
+std::unique_ptr<LineScheme> make(const SchemeChoice& choice, const Scene& scene, double) {
   const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
     return on(ModelI<K, Divergence>(kernel), choice, scene);
   };

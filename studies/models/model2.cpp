@@ -13,7 +13,7 @@ namespace acstudy {
 
 namespace {
 
-std::unique_ptr<AnyScheme> make(const SchemeChoice& choice, const Scene& scene, double mu) {
+std::unique_ptr<LineScheme> make(const SchemeChoice& choice, const Scene& scene, double mu) {
   const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
     return on(ModelII<K, Divergence>(kernel, mu), choice, scene);
   };

@@ -20,7 +20,7 @@
 
 namespace acstudy {
 
-class AnyScheme;
+class LineScheme;
 struct SchemeChoice;
 
 /// The fast sweep over moving particles (solver/line/vector/sweeps.hpp) that has a model's rates; none: they are
@@ -114,7 +114,7 @@ struct ModelCard {
   VectorForm vector_form;
   const ContinuumModel* continuum;  ///< the nonlocal model that it discretizes
   /// @param scene  outlives the scheme
-  std::unique_ptr<AnyScheme> (*make)(const SchemeChoice&, const Scene& scene, double mu);
+  std::unique_ptr<LineScheme> (*make)(const SchemeChoice&, const Scene& scene, double mu);
   PrintedRate (*printed_rate)(const PrintedAt&);
 
   Theorems theorems;

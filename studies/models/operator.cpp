@@ -9,7 +9,7 @@ PlacedScheme::PlacedScheme(const SchemeChoice& choice, const Scene& scene, doubl
                            double delta)
     : PlacedScheme(make_scheme(choice, scene, mu), scene, x, delta) {}
 
-PlacedScheme::PlacedScheme(std::unique_ptr<AnyScheme> scheme, const Scene& scene, const std::vector<double>& x,
+PlacedScheme::PlacedScheme(std::unique_ptr<LineScheme> scheme, const Scene& scene, const std::vector<double>& x,
                            double delta)
     : scene_(scene), particles_(x.size(), scene.period(), delta), scheme_(std::move(scheme)) {
   particles_.place(x);

@@ -17,11 +17,11 @@ class PlacedScheme {
   /// @param x  increasing positions within one period  @pre the scene outlives this
   PlacedScheme(const SchemeChoice& choice, const Scene& scene, double mu, const std::vector<double>& x, double delta);
   /// Any scheme, also one that no study can name.
-  PlacedScheme(std::unique_ptr<AnyScheme> scheme, const Scene& scene, const std::vector<double>& x, double delta);
+  PlacedScheme(std::unique_ptr<LineScheme> scheme, const Scene& scene, const std::vector<double>& x, double delta);
 
   std::size_t size() const { return particles_.size(); }
   const Particles& particles() const { return particles_; }
-  const AnyScheme& scheme() const { return *scheme_; }
+  const LineScheme& scheme() const { return *scheme_; }
 
   /// rate_j(u), u of shape [N].
   std::vector<double> rate(const std::vector<double>& u);
@@ -44,7 +44,7 @@ class PlacedScheme {
  private:
   const Scene& scene_;
   Particles particles_;
-  std::unique_ptr<AnyScheme> scheme_;
+  std::unique_ptr<LineScheme> scheme_;
 };
 
 /// Max norm of a forward Euler step I + dt R: the largest row sum of absolute values, exact to round-off.

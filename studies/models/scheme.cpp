@@ -4,7 +4,7 @@
 
 namespace acstudy {
 
-std::unique_ptr<AnyScheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu) {
+std::unique_ptr<LineScheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu) {
   const bool own_sum = choice.control != nullptr && choice.control->make != nullptr;
   return own_sum ? choice.control->make(choice, scene, mu) : choice.model->make(choice, scene, mu);
 }

@@ -37,9 +37,9 @@ class SchemeRows {
 
 /// A semidiscrete scheme of any type, du_j/dt = rate_j(u) + f_j. One virtual call a sweep over all particles, none a
 /// pair.
-class AnyScheme {
+class LineScheme {
  public:
-  virtual ~AnyScheme() = default;
+  virtual ~LineScheme() = default;
   /// Computes velocities and weights for the particles where they are now.
   virtual void place(const Particles& particles) = 0;
   /// du_j = rate_j(u).  @pre place() was called; wraps the ghosts of `u`
@@ -53,7 +53,7 @@ class AnyScheme {
 /// The scheme of a choice on a scene.
 /// @param mu     viscosity bound, of a viscous model
 /// @param scene  outlives the scheme
-std::unique_ptr<AnyScheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu);
+std::unique_ptr<LineScheme> make_scheme(const SchemeChoice& choice, const Scene& scene, double mu);
 
 /// The continuum model that a scheme discretizes at horizon `delta`.
 NonlocalModel nonlocal_model(const SchemeChoice& choice, double mu, double delta);

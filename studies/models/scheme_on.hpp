@@ -32,7 +32,7 @@ Stencil stencil_of(const Model& scheme, std::ptrdiff_t j, const Windows& windows
 
 /// @pre the scene outlives it
 template <RateSum Model>
-class SchemeOn final : public AnyScheme {
+class SchemeOn final : public LineScheme {
  public:
   SchemeOn(Model model, const Scene& scene, controls::Forgotten forgotten)
       : model_(std::move(model)), velocity_{scene, forgotten} {}
@@ -67,21 +67,21 @@ class SchemeOn final : public AnyScheme {
 
 /// A scheme on a scene, with the velocities that the choice's control leaves it.
 template <Scheme Model>
-std::unique_ptr<AnyScheme> on(Model model, const SchemeChoice& choice, const Scene& scene) {
+std::unique_ptr<LineScheme> on(Model model, const SchemeChoice& choice, const Scene& scene) {
   const auto forgotten = choice.control != nullptr ? choice.control->forgotten : controls::Forgotten::nothing;
   return std::make_unique<SchemeOn<Model>>(std::move(model), scene, forgotten);
 }
 
 /// A control's own sum.
 template <RateSum Model>
-std::unique_ptr<AnyScheme> wrong_sum_on(Model model, const Scene& scene) {
+std::unique_ptr<LineScheme> wrong_sum_on(Model model, const Scene& scene) {
   return std::make_unique<SchemeOn<Model>>(std::move(model), scene, controls::Forgotten::nothing);
 }
 
 /// The scheme that `make(kernel, divergence)` makes of a kernel and the divergence of a choice, as types.
 template <class Make>
 auto with_divergence(const SchemeChoice& choice, const Scene& scene, const Make& make) {
-  return [&](const auto& kernel) -> std::unique_ptr<AnyScheme> {
+  return [&](const auto& kernel) -> std::unique_ptr<LineScheme> {
     if (scene.standing()) return make(kernel, NoDivergence{});
     if (choice.nonlocal_divergence) return make(kernel, NonlocalDivergence{});
     return make(kernel, LocalDivergence{});
@@ -91,7 +91,7 @@ auto with_divergence(const SchemeChoice& choice, const Scene& scene, const Make&
 /// The same of a control, which is one of the local divergence.
 template <class Make>
 auto with_local_divergence(const Scene& scene, const Make& make) {
-  return [&](const auto& kernel) -> std::unique_ptr<AnyScheme> {
+  return [&](const auto& kernel) -> std::unique_ptr<LineScheme> {
     if (scene.standing()) return make(kernel, NoDivergence{});
     return make(kernel, LocalDivergence{});
   };

@@ -52,12 +52,12 @@ class MovingParticles {
 
 /// A scheme with its source on particles in motion: the system that integrators step, du/dt = R u + f.
 template <class Motion>
-class SchemeInMotion {
+class LineSchemeInMotion {
  public:
   /// All arguments outlive the system. The scheme knows its rows if the case is solved for or follows them.  @param
   /// result  gets the times and counts of what the scheme does not count
-  SchemeInMotion(const Case& c, AnyScheme& scheme, Source& source, Motion& motion, BoundWatch& watch,
-                 CaseResult& result)
+  LineSchemeInMotion(const Case& c, LineScheme& scheme, Source& source, Motion& motion, BoundWatch& watch,
+                     CaseResult& result)
       : scheme_(scheme),
         source_(source),
         motion_(motion),
@@ -134,7 +134,7 @@ class SchemeInMotion {
     if (watched_) watch_.stage(lemma_bound_ * gap_.width, gap_.place);
   }
 
-  AnyScheme& scheme_;
+  LineScheme& scheme_;
   Source& source_;
   Motion& motion_;
   BoundWatch& watch_;
@@ -152,7 +152,7 @@ class SchemeInMotion {
 
 /// Integrates from the exact initial values to T and measures the error; one repeat.
 template <class Motion>
-CaseResult advance(const Case& c, AnyScheme& scheme, Source& source, const std::atomic<bool>& stop) {
+CaseResult advance(const Case& c, LineScheme& scheme, Source& source, const std::atomic<bool>& stop) {
   const Scene& scene = *c.scene;
   const auto count = static_cast<std::size_t>(c.N);
   CaseResult result;
@@ -177,7 +177,7 @@ CaseResult advance(const Case& c, AnyScheme& scheme, Source& source, const std::
 
   const auto start = std::chrono::steady_clock::now();
   try {
-    SchemeInMotion<Motion> system(c, scheme, source, motion, watch, result);
+    LineSchemeInMotion<Motion> system(c, scheme, source, motion, watch, result);
     Stepper stepper(*c.integrator, u.size());
     step_to_end(
         c, [&](double at) { return system.bound(at); }, [&](const TimeStep& step) { stepper(step, u, system); },

@@ -28,9 +28,9 @@ Subject subject(int model, KernelChoice kernel, Arrangement arrangement, const s
 const KernelChoice inverse{"inverse"}, spline{"cubic-spline"}, steep{"power", 0.9};
 
 /// Another scheme's weights and rates, with a mistake.
-class Mistaken : public AnyScheme {
+class Mistaken : public LineScheme {
  public:
-  explicit Mistaken(std::unique_ptr<AnyScheme> scheme) : right_(std::move(scheme)) {}
+  explicit Mistaken(std::unique_ptr<LineScheme> scheme) : right_(std::move(scheme)) {}
   void place(const Particles& particles) override { right_->place(particles); }
   void rate(PeriodicArray& u, std::span<double> du) override {
     right_->rate(u, du);
@@ -41,7 +41,7 @@ class Mistaken : public AnyScheme {
   WorkCounts work() const override { return right_->work(); }
 
  private:
-  std::unique_ptr<AnyScheme> right_;
+  std::unique_ptr<LineScheme> right_;
 };
 
 /// Column by column, with no band.

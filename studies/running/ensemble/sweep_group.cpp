@@ -57,7 +57,7 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles, bool far
       mu_(c.mu),
       kernel_label_(c.scheme.kernel.label()) {
   if (!c.scene->standing()) return;
-  const std::unique_ptr<AnyScheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
+  const std::unique_ptr<LineScheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
   Particles at_rest(particles.size(), c.scene->period(), c.delta);
   at_rest.place(particles.x.values());
   readable->place(at_rest);

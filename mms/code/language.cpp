@@ -14,43 +14,17 @@ namespace {
 using Op = Expression::Op;
 
 /// Names as C's math.h has them, but for abs, min and max.
-std::string_view usual_name(Op op) {
-  switch (op) {
-    case Op::sin:
-      return "sin";
-    case Op::cos:
-      return "cos";
-    case Op::tan:
-      return "tan";
-    case Op::asin:
-      return "asin";
-    case Op::acos:
-      return "acos";
-    case Op::atan:
-      return "atan";
-    case Op::sinh:
-      return "sinh";
-    case Op::cosh:
-      return "cosh";
-    case Op::tanh:
-      return "tanh";
-    case Op::exp:
-      return "exp";
-    case Op::log:
-      return "log";
-    case Op::sqrt:
-      return "sqrt";
-    case Op::abs:
-      return "abs";
-    case Op::atan2:
-      return "atan2";
-    case Op::min:
-      return "min";
-    case Op::max:
-      return "max";
-    default:
-      return "";
-  }
+constexpr std::pair<Op, std::string_view> usual_names[] = {
+    {Op::sin, "sin"},   {Op::cos, "cos"},   {Op::tan, "tan"},   {Op::asin, "asin"},
+    {Op::acos, "acos"}, {Op::atan, "atan"}, {Op::sinh, "sinh"}, {Op::cosh, "cosh"},
+    {Op::tanh, "tanh"}, {Op::exp, "exp"},   {Op::log, "log"},   {Op::sqrt, "sqrt"},
+    {Op::abs, "abs"},   {Op::min, "min"},   {Op::max, "max"},   {Op::atan2, "atan2"},
+};
+
+std::string usual_name(Op op) {
+  const auto* const found = std::find_if(std::begin(usual_names), std::end(usual_names),
+                                         [op](const auto& known) { return known.first == op; });
+  return std::string(found->second);
 }
 
 std::string comment(const std::vector<std::string>& lines, std::string_view mark) {
@@ -88,25 +62,10 @@ std::string assignments(const std::vector<Statement>& statements, std::string_vi
 class Python : public Language {
  public:
   std::string_view name() const override { return "python"; }
-  std::string_view function(Op op) const override {
-    switch (op) {
-      case Op::asin:
-        return "np.arcsin";
-      case Op::acos:
-        return "np.arccos";
-      case Op::atan:
-        return "np.arctan";
-      case Op::atan2:
-        return "np.arctan2";
-      case Op::min:
-        return "np.minimum";
-      case Op::max:
-        return "np.maximum";
-      default: {
-        static std::set<std::string> names;
-        return *names.insert("np." + std::string(usual_name(op))).first;
-      }
-    }
+  std::string function(Op op) const override {
+    const std::string name = usual_name(op);
+    if (op == Op::min || op == Op::max) return "np." + name + "imum";
+    return "np." + (name.front() == 'a' && op != Op::abs ? "arc" + name.substr(1) : name);
   }
   std::string power(const std::string& base, const std::string& exponent) const override {
     return base + "**" + exponent;
@@ -142,7 +101,7 @@ class Python : public Language {
 class C : public Language {
  public:
   std::string_view name() const override { return "c"; }
-  std::string_view function(Op op) const override {
+  std::string function(Op op) const override {
     return op == Op::abs ? "fabs" : op == Op::min ? "fmin" : op == Op::max ? "fmax" : usual_name(op);
   }
   std::string power(const std::string& base, const std::string& exponent) const override {
@@ -186,7 +145,7 @@ class Fortran : public Language {
  public:
   std::string_view name() const override { return "fortran"; }
   std::string number(double value) const override { return Language::number(value) + "_dp"; }
-  std::string_view function(Op op) const override { return usual_name(op); }
+  std::string function(Op op) const override { return usual_name(op); }
   std::string power(const std::string& base, const std::string& exponent) const override {
     return base + "**" + exponent;
   }
@@ -238,7 +197,7 @@ class Fortran : public Language {
 class Julia : public Language {
  public:
   std::string_view name() const override { return "julia"; }
-  std::string_view function(Op op) const override { return op == Op::atan2 ? "atan" : usual_name(op); }
+  std::string function(Op op) const override { return op == Op::atan2 ? "atan" : usual_name(op); }
   std::string power(const std::string& base, const std::string& exponent) const override {
     return base + "^" + exponent;
   }
@@ -274,7 +233,7 @@ class Julia : public Language {
 class Json : public Language {
  public:
   std::string_view name() const override { return "json"; }
-  std::string_view function(Op op) const override { return usual_name(op); }
+  std::string function(Op op) const override { return usual_name(op); }
   std::string power(const std::string& base, const std::string& exponent) const override {
     return base + "^" + exponent;
   }

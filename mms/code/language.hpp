@@ -51,7 +51,7 @@ class Language {
   /// Shortest text that reads as the same double.
   virtual std::string number(double value) const;
   /// Of an operation that is a function call in every language.
-  virtual std::string_view function(Expression::Op op) const = 0;
+  virtual std::string function(Expression::Op op) const = 0;
   virtual std::string power(const std::string& base, const std::string& exponent) const = 0;
   /// p <= q ? a : b
   virtual std::string choice(const std::string& p, const std::string& q, const std::string& a,

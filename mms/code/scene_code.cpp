@@ -121,7 +121,7 @@ class FunctionWriter {
         return {"-" + at_least(atom, t.a), sign};
       default: {
         const std::string a = write(t.a).text;
-        const std::string_view name = language_.function(t.op);
+        const std::string name = language_.function(t.op);
         return {is_function_of_one(t.op) ? fmt::format("{}({})", name, a)
                                          : fmt::format("{}({}, {})", name, a, write(t.b).text)};
       }

@@ -143,8 +143,17 @@ def numbers(path):
     return content
 
 
+def install(prefix):
+    """Installs the build that the program stands in; False where it stands in none."""
+    if not (ACSTUDY.parent / "cmake_install.cmake").exists():
+        return False
+    subprocess.run(["cmake", "--install", ACSTUDY.parent, "--prefix", prefix], check=True, capture_output=True)
+    return True
+
+
 class ProgramTest(unittest.TestCase):
     maxDiff = None
+    program = ACSTUDY
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -158,7 +167,7 @@ class ProgramTest(unittest.TestCase):
 
     def acstudy(self, *arguments, **options):
         """Runs the program in the temporary folder."""
-        return subprocess.run([ACSTUDY, *map(str, arguments)], cwd=self.folder, text=True, capture_output=True,
+        return subprocess.run([self.program, *map(str, arguments)], cwd=self.folder, text=True, capture_output=True,
                               check=False, timeout=60, **options)
 
     def run_study(self, text, *arguments, out="out", expect=None, **options):

@@ -1,4 +1,4 @@
-"""Every example of another program as it is copied, run by the program that ACSTUDY names, which may be an installed one."""
+"""Every example of another program, copied from an installed acstudy and run by it."""
 
 import importlib.util
 import os
@@ -6,11 +6,11 @@ from pathlib import Path
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
-from tests.program import ROOT, ProgramTest
+from tests.program import ROOT, ProgramTest, install
 
-EXAMPLES = ROOT / "examples"
 SHOWN = {"upwind": [("upwind", "confirmed"), ("upwind with a mistake", "stagnates")],
          "upwind-c": [("upwind in C", "confirmed")],
          "upwind-fortran": [("upwind in Fortran", "confirmed")],
@@ -27,6 +27,16 @@ def compiler(*names):
 
 
 class Examples(ProgramTest):
+    examples = ROOT / "examples"
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        prefix = Path(folder.name)
+        if install(prefix):
+            cls.examples, cls.program = prefix / "share" / "acstudy" / "examples", prefix / "bin" / "acstudy"
+
     def setUp(self):
         super().setUp()
         python = self.folder / "bin" / "python3"
@@ -38,7 +48,7 @@ class Examples(ProgramTest):
     def run_example(self, name, *arguments, expect=0, change=None):
         """Runs a copy of the example; returns the label and verdict of each series."""
         copy = self.folder / name
-        shutil.copytree(EXAMPLES / name, copy, ignore=shutil.ignore_patterns("upwind"), dirs_exist_ok=True)
+        shutil.copytree(self.examples / name, copy, ignore=shutil.ignore_patterns("upwind"), dirs_exist_ok=True)
         if change is not None:
             change(copy)
         done = self.acstudy("run", f"{name}/{name}.toml", "--out", "out", *arguments, env=self.environment)
@@ -53,10 +63,10 @@ class Examples(ProgramTest):
         return build
 
     def test_all_of_them_are_known_and_have_a_page(self):
-        with_command = {study.parent.name for study in EXAMPLES.glob("*/*.toml") if "\ncommand = " in study.read_text()}
+        with_command = {study.parent.name for study in self.examples.glob("*/*.toml") if "\ncommand = " in study.read_text()}
         self.assertEqual(with_command, set(SHOWN))
         for name in SHOWN:
-            self.assertIn(f"examples/{name}/{name}.toml --out out", (EXAMPLES / name / "README.md").read_text())
+            self.assertIn(f"examples/{name}/{name}.toml --out out", (self.examples / name / "README.md").read_text())
 
     def test_upwind_and_its_mistake(self):
         self.assertEqual(self.run_example("upwind"), SHOWN["upwind"])

@@ -8,9 +8,8 @@ import sys
 import tempfile
 import unittest
 
-from tests.program import ACSTUDY, ROOT, edit
+from tests.program import ACSTUDY, ROOT, edit, install
 
-BUILD = ACSTUDY.parent
 EXAMPLE = ROOT / "examples" / "scheme"
 LAST_CELL = ("? p.first_moment(0.5 * (d + std::abs(p.z(side * (k + 1))))) : 1.0;",
              "? p.first_moment(0.5 * (d + std::abs(p.z(side * (k + 1))))) : p.first_moment(d);")
@@ -33,7 +32,6 @@ def do(*command, folder=None, code=0):
     return done.stdout
 
 
-@unittest.skipUnless((BUILD / "cmake_install.cmake").exists(), "the program does not stand in a build folder")
 class OwnScheme(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -41,7 +39,8 @@ class OwnScheme(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
         cls.prefix = cls.folder / "prefix"
-        do("cmake", "--install", BUILD, "--prefix", cls.prefix)
+        if not install(cls.prefix):
+            raise unittest.SkipTest("the program does not stand in a build folder")
         cls.right = cls.build(EXAMPLE, "right")
 
     @classmethod

@@ -64,7 +64,9 @@ struct Frozen {
       itself.control = nullptr;
       return PlacedScheme(itself, *subject.scene, subject.mu, x, delta).scheme().rows()->strongest_decay();
     };
-    rows = subject.scheme.model->step_lemma.promised && viscosity_suffices(subject, placed, constants.speed) ? 1.0 / decay() : 0.0;
+    rows = subject.scheme.model->step_lemma.promised && viscosity_suffices(subject, placed, constants.speed)
+               ? 1.0 / decay()
+               : 0.0;
   }
 
   /// Of R; computed once for all steps.

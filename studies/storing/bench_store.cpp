@@ -95,12 +95,9 @@ json case_json(const BenchCase& one) {
 }
 
 std::string bench_json(const Bench& bench, const BenchOptions& options, const Provenance& provenance, bool complete) {
-  json root = {{"format", bench_format},
-               {"complete", complete},
-               {"runs", options.runs},
-               {"least_seconds", options.least_seconds},
-               {"provenance", json::object()},
-               {"series", json::array()},
+  json root = {{"format", bench_format},       {"complete", complete},
+               {"runs", options.runs},         {"least_seconds", options.least_seconds},
+               {"provenance", json::object()}, {"series", json::array()},
                {"cases", json::array()}};
   for (const auto& [name, value] : provenance) root["provenance"][name] = value;
   const auto places = places_in_files(bench);
@@ -122,7 +119,8 @@ void write_bench_case(hid_t parent, const std::string& name, const BenchCase& on
   h5::write_number<std::int64_t>(group, "threads", one.threads);
   one.c->stored(write);
   for_each_kept(one.result, write);
-  h5::write_columns(group, one.samples, Sample{}, [](const Sample& s, auto&& visit) { for_each_sample_column(s, visit); });
+  h5::write_columns(group, one.samples, Sample{},
+                    [](const Sample& s, auto&& visit) { for_each_sample_column(s, visit); });
 }
 
 std::vector<char> bench_h5(const Bench& bench, const BenchOptions& options, const Provenance& provenance,

@@ -93,7 +93,8 @@ void write_verdict(hid_t group, const Finding& finding) {
 void write_finding(hid_t parent, const std::string& group_name, const Finding& finding) {
   const h5::Handle group = h5::create_group(parent, group_name);
   write_verdict(group, finding);
-  h5::write_columns(group, finding.points, Point{}, [](const Point& p, auto&& visit) { for_each_point_column(p, visit); });
+  h5::write_columns(group, finding.points, Point{},
+                    [](const Point& p, auto&& visit) { for_each_point_column(p, visit); });
   std::string labels;
   if (std::any_of(finding.points.begin(), finding.points.end(), [](const Point& p) { return !p.label.empty(); })) {
     for (const Point& point : finding.points) labels += point.label + "\n";

@@ -194,9 +194,9 @@ std::string explain(const StudyForecast& forecast, std::span<const Finding> budg
     if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
     count += series.cases.size();
     const SeriesForecast& ahead = forecast.series[*measurement.check.series];
-    out +=
-        fmt::format("  the gate expects: {}\n  form: {}\n  takes: {}\n", name_of(series.expected),
-                    forms_of(ahead.cases), cost_text(ahead.seconds(), ahead.bytes(), series.scheme.program == nullptr));
+    out += fmt::format("  the gate expects: {}\n  form: {}\n", name_of(series.expected), forms_of(ahead.cases));
+    if (series.scheme.program == nullptr)
+      out += fmt::format("  takes: {}\n", cost_text(ahead.seconds(), ahead.bytes(), true));
     if (series.until_decided) {
       out += fmt::format("  from N = {} on a level is added where the verdict is not decided without it\n",
                          series.cases[std::min(series.cases_at_first(), series.cases.size() - 1)].N);

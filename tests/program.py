@@ -13,6 +13,10 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 ACSTUDY = Path(os.environ.get("ACSTUDY", ROOT / "build" / "acstudy")).resolve()
 
+# Speeds that `acstudy explain` finds are kept for the tests of this process alone.
+CACHE = tempfile.TemporaryDirectory(prefix="acstudy-cache-")
+os.environ["XDG_CACHE_HOME"] = CACHE.name
+
 STUDY = """\
 [study]
 name = "tiny"

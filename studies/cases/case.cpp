@@ -46,6 +46,22 @@ double Case::estimated_work() const {
   return (one_by_one ? 10.0 : 1.0) * taken * static_cast<double>(integrator->stage_count()) * of_stage;
 }
 
+double Case::result_bytes() const {
+  constexpr double fields = 3.0;  // x, u and the exact one
+  return fields * sizeof(double) * static_cast<double>(N);
+}
+
+double Case::working_bytes() const {
+  constexpr double program = 3e7;                 // itself, with its libraries
+  if (scheme.program != nullptr) return program;  // what another one needs is its own affair
+  const double count = static_cast<double>(N), reach = std::min(std::max(1.0, delta / h), 0.5 * count);
+  // Of a particle: always, besides where sums are taken one by one, and for a periodic band and its factors.
+  double numbers = 16.0;
+  if (readable || step.bound == StepRule::Bound::rows || scheme.control != nullptr) numbers += 8.0 * reach;
+  if (integrator->implicit()) numbers += 30.0 + 35.0 * reach;
+  return program + sizeof(double) * numbers * count;
+}
+
 double Case::lemma_bound(double h_min) const { return h_min / scheme.model->step_lemma.speed(*scene, mu); }
 
 void Case::halve_steps() {

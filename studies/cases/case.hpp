@@ -4,6 +4,7 @@
 /// One run: everything that fixes its numbers.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,8 @@ struct Case {
   bool readable = false;              ///< run in the readable form of the scheme even where there is a vector form
   std::size_t source_refinement = 1;  ///< how many times the points of the Gauss rule a nonlocal source gets
   std::string path = {};              ///< its name, which a program is told
+  /// Seconds that the run may take; they decide no number, and are no part of the key. A program has its timeout.
+  double limit = std::numeric_limits<double>::infinity();
 
   /// Its inputs that are stored case by case; what a series has in common is stored with the series.
   template <class Visit>
@@ -61,6 +64,10 @@ struct Case {
   /// Roughly what the run takes, in pair interactions of the vector form: to start the longest case first, and to say
   /// how long the rest takes.
   double estimated_work() const;
+  /// Bytes of the fields that its result keeps.
+  double result_bytes() const;
+  /// Roughly what else the program needs of memory while it runs this case.
+  double working_bytes() const;
   /// The largest forward Euler step that the lemma of the model allows at a smallest gap.
   double lemma_bound(double h_min) const;
   /// CFL number at the start: dt over the bound of the lemma.

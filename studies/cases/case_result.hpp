@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mms/points.hpp"
@@ -31,6 +32,9 @@ struct StepsAgainstBound {
   double first_time = std::numeric_limits<double>::quiet_NaN();
   double first_place = std::numeric_limits<double>::quiet_NaN();  ///< left end of the smallest gap then
 };
+
+/// How the failure of a run begins that was ended because it took longer than its limit.
+inline constexpr std::string_view over_limit = "took longer than its limit of ";
 
 /// Parts of the seconds of a run, from a sample of its steps if there are many. Where threads share a pass over the
 /// particles the clock of one of them tells its parts apart; what is in none is the step itself, the set-up, and the

@@ -145,4 +145,23 @@ std::vector<std::string> lints(const Study& study) {
   return out;
 }
 
+std::vector<std::string> hidden_by_time(const Study& study, std::span<const Finding> budgets) {
+  constexpr double most = 0.5;
+  std::vector<std::string> out;
+  for (const Finding& budget : budgets) {
+    const auto of_study = [&](const Coordinate& one) {
+      return one.name == "study" && one.value == Coordinate::Value(study.name);
+    };
+    if (std::none_of(budget.coordinates.begin(), budget.coordinates.end(), of_study)) continue;
+    for (const Point& part : budget.points) {
+      if (part.label != "time" || !(part.value > most)) continue;
+      out.push_back(
+          fmt::format("time steps make {:.0f} % of the error of {} at N = {}, by its error budget: the order observed "
+                      "is not that of space; take smaller steps, or an integrator of higher order",
+                      100.0 * part.value, budget.subject, part.N));
+    }
+  }
+  return out;
+}
+
 }  // namespace acstudy

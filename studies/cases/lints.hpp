@@ -3,9 +3,11 @@
 /// @file
 /// What a manufactured solution cannot show, although all verdicts may be as expected.
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "studies/cases/finding.hpp"
 #include "studies/cases/study.hpp"
 
 namespace acstudy {
@@ -17,5 +19,10 @@ namespace acstudy {
 /// fewer than 8 particles per wavelength, or that the source is large against the terms that it balances. After
 /// Roache, and Salari and Knupp, on what a manufactured solution has to do.
 std::vector<std::string> lints(const Study& study);
+
+/// Warnings about series of the study whose time steps make most of an error: the order that is observed is then not
+/// that of the scheme in space, and a mistake there can hide.
+/// @param budgets  findings of studies of kind "pollution", of this study and of others
+std::vector<std::string> hidden_by_time(const Study& study, std::span<const Finding> budgets);
 
 }  // namespace acstudy

@@ -70,6 +70,11 @@ void add_level(Finding& finding, Point point, double solution) {
   if (std::isfinite(solution) && solution > finding.known.scale.value_or(0.0)) finding.known.scale = solution;
 }
 
+bool is_decided(const Finding& finding) {
+  const Verdict verdict = finding.judgement.verdict;
+  return !finding.failure.empty() || (verdict != Verdict::inconclusive && verdict != Verdict::pre_asymptotic);
+}
+
 void judge_series(Finding& finding) {
   std::vector<Level> levels;
   for (const Point& point : finding.points) levels.push_back({point.variable, point.value});

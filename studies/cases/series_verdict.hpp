@@ -22,6 +22,10 @@ Measurement series_verdict(const Series& series, std::size_t number);
 /// @param solution  largest exact |u| there, by which round-off is known; NaN if it is not
 void add_level(Finding& finding, Point point, double solution);
 
+/// More levels would not be asked for: they are confirmed, or it is known why they are not.
+/// @pre  the finding is judged
+bool is_decided(const Finding& finding);
+
 /// Judges a finding on a series.
 /// @pre finding.cases
 void judge_series(Finding& finding);

@@ -17,6 +17,9 @@
 
 namespace acstudy {
 
+/// An order is extrapolated from so many levels on.
+inline constexpr std::size_t fewest_levels = 4;
+
 /// One scheme along one path.
 struct Series {
   SchemeChoice scheme;
@@ -26,11 +29,14 @@ struct Series {
   Theory theory;
   Verdict expected;
   std::vector<Case> cases;         ///< coarse to fine
+  bool until_decided = false;      ///< after the fewest levels one at a time is added, until the verdict is decided
   bool against_reference = false;  ///< the last case is no level: the others' errors are against it
 
   /// Number of cases that are judged.
   std::size_t levels() const { return cases.size() - (against_reference ? 1 : 0); }
   std::optional<ReferenceLevel> reference_level() const;
+  /// Number of cases that are run whatever comes of them.
+  std::size_t cases_at_first() const { return until_decided ? fewest_levels : cases.size(); }
   /// Value of theory's variable at a case.
   double variable(double h, double delta) const { return theory.variable == "h" ? h : std::max(h, delta); }
   std::string label() const;

@@ -15,7 +15,8 @@
 
 namespace acstudy {
 
-/// A series with its results, `results[i]` being that of `series.cases[i]`.
+/// A series with its results, `results[i]` being that of `series.cases[i]`. There are as many as are asked for: all, or
+/// those up to the level that decides.
 struct SeriesResult {
   const Series* series;
   std::vector<CaseResult> results;

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <span>
 
 #include "solver/line/particles.hpp"
 #include "studies/cases/lints.hpp"
+#include "studies/commands/bytes.hpp"
+#include "studies/commands/seconds.hpp"
 #include "studies/models/outside_program.hpp"
-#include "studies/running/plan.hpp"
 
 namespace acstudy {
 
@@ -70,13 +70,27 @@ std::string left_out(const Study& study) {
 
 namespace {
 
+/// "about 0.12 s, 3.1 MB": of a processor, and of memory. Nothing is known of the seconds of a program.
+std::string cost_text(double seconds, double bytes, bool of_acstudy) {
+  return (of_acstudy ? fmt::format("about {}, ", seconds_text(seconds)) : "") + bytes_text(bytes);
+}
+
+std::string cost_text(const StudyForecast& forecast) {
+  const auto& series = forecast.study->series;
+  const bool of_acstudy =
+      std::any_of(series.begin(), series.end(), [](const Series& s) { return s.scheme.program == nullptr; });
+  return cost_text(forecast.seconds(), forecast.bytes(), of_acstudy);
+}
+
 /// A study that is judged by what it measures.
-std::string explain_measurements(const Study& study) {
+std::string explain_measurements(const StudyForecast& forecast) {
+  const Study& study = *forecast.study;
   std::string out = fmt::format("{} - {} ({})\n\n", study.name, study.title, study.kind);
   std::size_t cases = 0;
   for (const Series& series : study.series) cases += series.cases.size();
   for (const Measurement& measurement : study.measurements) out += "  " + measurement.check.label() + "\n";
-  return out + fmt::format("\n{} measurements, {} cases run for them\n", study.measurements.size(), cases);
+  return out + fmt::format("\n{} measurements, {} cases run for them{}\n", study.measurements.size(), cases,
+                           cases == 0 ? "" : ": " + cost_text(forecast));
 }
 
 std::string solution(const SceneText& scene) {
@@ -116,41 +130,27 @@ std::string explain_program(const Series& series) {
   return out;
 }
 
-/// The plans of the cases of each series, as they are when all are run.
-std::map<const Series*, std::vector<Plan>> plans_of(const Study& study) {
-  std::vector<const Case*> cases;
-  for (const Series& series : study.series) {
-    for (const Case& c : series.cases) cases.push_back(&c);
-  }
-  const std::vector<Plan> all = plan(cases);
-  std::map<const Series*, std::vector<Plan>> plans;
-  auto next = all.begin();
-  for (const Series& series : study.series) {
-    plans[&series].assign(next, next + std::ssize(series.cases));
-    next += std::ssize(series.cases);
-  }
-  return plans;
-}
-
 /// The form that runs each case of a series, coarse to fine: "vector up to N = 640, vector with far sums up to N =
 /// 2560".
-std::string forms_of(std::span<const Plan> plans) {
+std::string forms_of(std::span<const CaseForecast> cases) {
   std::string out;
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    const bool last = i + 1 == plans.size();
-    if (!last && plans[i + 1].form == plans[i].form) continue;
-    if (last && out.empty()) return std::string(plans[i].form->name);
-    out += fmt::format("{}{} up to N = {}", out.empty() ? "" : ", ", plans[i].form->name, plans[i].c->N);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Plan& plan = cases[i].plan;
+    const bool last = i + 1 == cases.size();
+    if (!last && cases[i + 1].plan.form == plan.form) continue;
+    if (last && out.empty()) return std::string(plan.form->name);
+    out += fmt::format("{}{} up to N = {}", out.empty() ? "" : ", ", plan.form->name, plan.c->N);
   }
   return out;
 }
 
 }  // namespace
 
-std::string explain(const Study& study) {
+std::string explain(const StudyForecast& forecast, std::span<const Finding> budgets) {
+  const Study& study = *forecast.study;
   const auto of_series = [](const Measurement& measurement) { return measurement.check.series.has_value(); };
   if (!std::all_of(study.measurements.begin(), study.measurements.end(), of_series) || study.measurements.empty()) {
-    return explain_measurements(study);
+    return explain_measurements(forecast);
   }
   const SceneText& scene = study.scene->text();
   std::string out = fmt::format("{} - {}\n\n", study.name, study.title);
@@ -164,11 +164,12 @@ std::string explain(const Study& study) {
   for (const Series& series : study.series) {
     const Case& c = series.cases.front();
     if (c.integrator == &own_steps && c.steps == 0) continue;
-    const std::string stepping = fmt::format("time: {}, step {} at most\n", c.integrator->name, c.step.label());
+    const std::string stepping =
+        fmt::format("time: {}, step {} at most{}\n", c.integrator->name, c.step.label(),
+                    std::isinf(c.limit) ? "" : fmt::format("; a case is ended after {:g} s", c.limit));
     if (said.insert(stepping).second) out += stepping;
   }
 
-  const auto plans = plans_of(study);
   std::size_t count = 0;
   for (const Measurement& measurement : study.measurements) {
     const Series& series = study.series[*measurement.check.series];
@@ -192,7 +193,14 @@ std::string explain(const Study& study) {
     }
     if (const auto reference = series.reference_level()) out += explain_reference(series, *reference);
     count += series.cases.size();
-    out += fmt::format("  the gate expects: {}\n  form: {}\n", name_of(series.expected), forms_of(plans.at(&series)));
+    const SeriesForecast& ahead = forecast.series[*measurement.check.series];
+    out += fmt::format("  the gate expects: {}\n  form: {}\n", name_of(series.expected), forms_of(ahead.cases));
+    if (series.scheme.program == nullptr)
+      out += fmt::format("  takes: {}\n", cost_text(ahead.seconds(), ahead.bytes(), true));
+    if (series.until_decided) {
+      out += fmt::format("  from N = {} on a level is added where the verdict is not decided without it\n",
+                         series.cases[std::min(series.cases_at_first(), series.cases.size() - 1)].N);
+    }
     if (series.scheme.program != nullptr) {
       out += explain_program(series);
       continue;
@@ -220,10 +228,11 @@ std::string explain(const Study& study) {
     }
   }
   out += fmt::format(
-      "\n{} series, {} cases; neighbors of uniform particles, CFL at the start\n\nleft out, because nothing here needs "
-      "it:\n{}",
-      study.series.size(), count, left_out(study));
-  const std::vector<std::string> warnings = lints(study);
+      "\n{} series, {} cases: {}; neighbors of uniform particles, CFL at the start\n\nleft out, because nothing here "
+      "needs it:\n{}",
+      study.series.size(), count, cost_text(forecast), left_out(study));
+  std::vector<std::string> warnings = lints(study);
+  for (std::string& hidden : hidden_by_time(study, budgets)) warnings.push_back(std::move(hidden));
   if (!warnings.empty())
     out += fmt::format("\nwhat its solution cannot show:\n  - {}\n", fmt::join(warnings, "\n  - "));
   return out;

@@ -5,11 +5,12 @@
 
 #include <string>
 
-#include "studies/cases/study.hpp"
+#include "studies/commands/forecast/forecast.hpp"
 
 namespace acstudy {
 
-/// The plan of a study, case by case; computes nothing.
-std::string explain(const Study& study);
+/// The plan of a study, case by case, with what it will take.
+/// @param budgets  findings on the parts of its errors that an earlier run has left
+std::string explain(const StudyForecast& forecast, std::span<const Finding> budgets);
 
 }  // namespace acstudy

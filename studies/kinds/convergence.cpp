@@ -19,7 +19,8 @@ void read_convergence(const Table& root, Study& study) {
   std::vector<PathChoice> paths;
   std::set<std::string> names;
   for (const Table& table : path_tables) {
-    paths.push_back(read_path(table, study.scene->solved(), !programs_alone(root)));
+    paths.push_back(
+        read_path(table, {.solved = study.scene->solved(), .needs_delta = !programs_alone(root), .adds_levels = true}));
     if (!names.insert(paths.back().name).second) {
       table.place(*table.find("name"))
           .fail(fmt::format("a second path named {}; names must differ", in_quotes(paths.back().name)));

@@ -153,6 +153,13 @@ void read_pollution(const Table& root, Study& study) {
           "studies contains \"{}\", which has a command for a scheme; its steps and source cannot be taken apart",
           *name));
     }
+    if (std::any_of(named.series.begin(), named.series.end(),
+                    [](const Series& series) { return series.until_decided; })) {
+      table.place(item).fail(fmt::format(
+          "studies contains \"{}\", where a path adds levels until they decide, so that its finest is not known; name "
+          "one with N = [160, 320, 640, 1280]",
+          *name));
+    }
     SceneText text = named.scene->text();
     text.name.clear();
     text.u = fmt::format("{}*({})", other_unit, text.u);

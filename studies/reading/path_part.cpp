@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "studies/cases/study.hpp"
 #include "studies/reading/shared_tables.hpp"
 
 namespace acstudy {
@@ -119,17 +120,45 @@ void read_source(const Table& table, PathChoice& path, bool solved) {
 
 }  // namespace
 
-PathChoice read_path(const Table& table, bool solved, bool needs_delta) {
+/// N = { from = 40, until = "decided", most = 10240 }: the levels that there may be.
+std::vector<std::int64_t> read_doubled(const Table& path, const toml::table& levels) {
+  const Table table(levels, "N", path.file());
+  table.allow(path_keys, "N");
+  const auto particles = [&](std::string_view key, std::string_view example) {
+    return table.whole(key, table.need(key, example), 3, most_particles);
+  };
+  const std::int64_t from = particles("from", "from = 40");
+  table.choice<bool>("until", table.need("until", "until = \"decided\""), {{"decided", true}});
+  const std::int64_t most = particles("most", "most = 10240");
+  std::vector<std::int64_t> N;
+  for (std::int64_t level = from; level <= most; level *= 2) N.push_back(level);
+  if (N.size() < fewest_levels) {
+    table.place(*table.find("most"))
+        .fail(fmt::format("most = {}, which {} levels from {} on do not pass; an order takes {}: write most = {}", most,
+                          N.size(), from, fewest_levels, from << (fewest_levels - 1)));
+  }
+  return N;
+}
+
+PathChoice read_path(const Table& table, const PathRules& rules) {
+  const toml::node* const levels = table.find("N");
+  const bool until_decided = rules.adds_levels && levels != nullptr && levels->is_table();
+  if (until_decided && !rules.solved) {
+    table.place(*levels).fail(
+        "levels are added where u is known, as a reference has to be finer than all of them; write N = [160, 320, 640, "
+        "1280]");
+  }
   const toml::node& name = table.need("name", "name = \"delta = 4h\"");
   PathChoice path{.name = table.text("name", name, "name = \"delta = 4h\""),
-                  .delta = needs_delta || table.find("delta") != nullptr
+                  .delta = rules.needs_delta || table.find("delta") != nullptr
                                ? table.expression("delta", "delta = \"4*h\"", {"h", "N"})
                                : Expression("h", {"h", "N"}),
-                  .N = read_levels(table),
+                  .N = until_decided ? read_doubled(table, *levels->as_table()) : read_levels(table),
+                  .until_decided = until_decided,
                   .nonlocal_source = false,
                   .expect = std::nullopt,
                   .order = std::nullopt};
-  read_source(table, path, solved);
+  read_source(table, path, rules.solved);
   if (path.name.empty()) table.place(name).fail("a path needs a name, for example \"delta = 4h\"");
   if (const toml::node* const expect = table.find("expect")) {
     path.expect = read_expected(table, *expect);

@@ -22,6 +22,7 @@ struct PathChoice {
   std::string name;
   Expression delta;
   std::vector<std::int64_t> N;
+  bool until_decided = false;  ///< levels are run one by one until the verdict is decided
   bool nonlocal_source;
   std::optional<Verdict> expect;
   std::optional<double> order;  ///< in place of theory's
@@ -29,9 +30,13 @@ struct PathChoice {
   Place at_start = {};
   bool against_reference = false;  ///< the last of N is the reference and no level
 };
-/// @param solved        false: no solution is known, so errors are against a reference
-/// @param needs_delta  false: it is h if left out
-PathChoice read_path(const Table& table, bool solved = true, bool needs_delta = true);
+/// What a study can do with a path.
+struct PathRules {
+  bool solved = true;        ///< false: no solution is known, so errors are against a reference
+  bool needs_delta = true;   ///< false: it is h if left out
+  bool adds_levels = false;  ///< N may be { from = 40, until = "decided", most = 10240 }
+};
+PathChoice read_path(const Table& table, const PathRules& rules = {});
 
 /// A verdict that a study may expect of an order.
 Verdict read_expected(const Table& table, const toml::node& node);

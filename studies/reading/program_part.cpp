@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "studies/cases/checksum.hpp"
 #include "studies/models/outside_program.hpp"
@@ -33,30 +32,6 @@ std::vector<std::string> read_words(const Table& table, std::string_view key, st
     words.push_back(*word);
   }
   return words;
-}
-
-/// Seconds, as a number or with their unit: "60 s", "10 min", "2 h".
-double read_timeout(const Table& table, const toml::node& node) {
-  constexpr std::pair<std::string_view, double> units[] = {{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}};
-  double seconds = 0.0;
-  if (const auto text = node.value_exact<std::string>()) {
-    std::istringstream in(*text);
-    double number = 0.0;
-    std::string unit, rest;
-    const bool two_words = in >> number >> unit && !(in >> rest);
-    for (const auto& [name, factor] : units) {
-      if (two_words && unit == name) seconds = factor * number;
-    }
-  } else if (node.is_number()) {
-    seconds = table.number("timeout", node);
-  }
-  constexpr double most = 1e7;
-  if (!(seconds > 0.0 && seconds <= most)) {
-    table.place(node).fail(
-        fmt::format("timeout = {}; it is a time of at most {:g} s with its unit, s, min or h: write timeout = \"60 s\"",
-                    Table::described(node), most));
-  }
-  return seconds;
 }
 
 /// Null if there is no such file.
@@ -104,7 +79,7 @@ std::shared_ptr<const OutsideProgram> read_program(const Table& scheme) {
   }
   if (const toml::node* const expect = scheme.find("expect")) program->expect = read_expected(scheme, *expect);
   const toml::node* const timeout = scheme.find("timeout");
-  program->timeout = timeout != nullptr ? read_timeout(scheme, *timeout) : usual_timeout;
+  program->timeout = timeout != nullptr ? scheme.seconds("timeout", *timeout) : usual_timeout;
 
   for (const std::string& word : program->command) {
     // A word without a folder at the begin is looked for on the PATH.

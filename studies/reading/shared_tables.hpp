@@ -73,6 +73,7 @@ inline constexpr Key time_keys[] = {
     {"safety", "number above 0", "fraction of the bound; goes with step = \"cfl\"", "0.9"},
     {"bound", "\"lemma\", \"rows\"", "by the smallest gap, or by the rows of the scheme; goes with \"cfl\"",
      "\"lemma\""},
+    {"limit", "time", "that a case may take, \"30 s\", \"10 min\"; a command has its timeout", "none"},
     {"expect", "a verdict", "in place of what the paths expect; convergence only", "what the paths expect"},
 };
 inline constexpr TableKeys time_table{"[time]", time_keys};
@@ -82,7 +83,11 @@ inline constexpr TableKeys times_table{"[time] or [[time]]", time_keys};
 inline constexpr Key path_keys[] = {
     {"name", "text", "label; each path has its own"},
     {"delta", "expression in h, N", "horizon, below half the period", "needed unless all schemes are commands; then h"},
-    {"N", "list of numbers", "levels, numbers of particles from coarse to fine"},
+    {"N", "list of numbers", "levels, numbers of particles from coarse to fine, or a table; that in convergence only"},
+    {"N.from", "whole number", "the coarsest level; each other one has twice as many particles", "needed in a table"},
+    {"N.until", "\"decided\"", "levels are added until the verdict is neither inconclusive nor pre-asymptotic",
+     "needed in a table"},
+    {"N.most", "whole number", "no level has more particles", "needed in a table"},
     {"source", "\"local\", \"nonlocal\"", "u solves the PDE, or the nonlocal model at this delta",
      "needed if u is known"},
     {"reference", "number", "N of the run that errors are against, if no u is known", "the finest of N"},

@@ -239,6 +239,7 @@ Stepping read_time(const Table& time) {
       .rule = {},
       .step = std::nullopt,
       .at_step = time.place(time.need("step", "step = \"h/4\""))};
+  if (const toml::node* const limit = time.find("limit")) stepping.limit = time.seconds("limit", *limit);
   if (const toml::node* const expect = time.find("expect")) stepping.expect = read_expected(time, *expect);
   StepRule& rule = stepping.rule;
   if (time.find("step")->value_exact<std::string>() == "cfl") {
@@ -371,6 +372,7 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
                                   h, N, scene.T() / bound));
   }
   c.steps = steps_for(scene.T(), bound);
+  if (entry.scheme.program == nullptr) c.limit = time.limit;
   c.dt = c.steps == 0 ? 0.0 : scene.T() / static_cast<double>(c.steps);
   return c;
 }
@@ -385,6 +387,7 @@ Series make_series(const Study& study, const Stepping& time, const SchemeEntry& 
                 .expected = Verdict::confirmed,
                 .cases = {}};
   series.stepping = time.label;
+  series.until_decided = path.until_decided;
   series.against_reference = path.against_reference;
   for (const std::int64_t N : path.N) {
     const double period = study.scene->period(), gap = path.start.smallest_gap * period / static_cast<double>(N);

@@ -3,6 +3,7 @@
 /// @file
 /// The tables that studies of several kinds share: scene, schemes, paths, time stepping and the cases made of them.
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,8 +61,9 @@ struct Stepping {
   StepRule rule;
   std::optional<Expression> step;  ///< upper bound of equal steps; absent where they follow a bound of the scheme
   Place at_step;
-  std::optional<Verdict> expect = {};  ///< in place of what paths expect
-  std::string label = {};              ///< for the labels of series, where a study has several ways to step
+  double limit = std::numeric_limits<double>::infinity();  ///< seconds that a case may take
+  std::optional<Verdict> expect = {};                      ///< in place of what paths expect
+  std::string label = {};  ///< for the labels of series, where a study has several ways to step
 };
 /// [scene], [time] and [source] of a study that runs cases; what is read is set in `study`.
 Stepping read_problem(const Table& root, Study& study);

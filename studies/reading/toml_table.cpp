@@ -128,6 +128,29 @@ double Table::number(std::string_view key, const toml::node& node) const {
   return *value;
 }
 
+double Table::seconds(std::string_view key, const toml::node& node) const {
+  constexpr std::pair<std::string_view, double> units[] = {{"s", 1.0}, {"min", 60.0}, {"h", 3600.0}};
+  double value = 0.0;
+  if (const auto text = node.value_exact<std::string>()) {
+    std::istringstream in(*text);
+    double count = 0.0;
+    std::string unit, rest;
+    const bool two_words = in >> count >> unit && !(in >> rest);
+    for (const auto& [name, factor] : units) {
+      if (two_words && unit == name) value = factor * count;
+    }
+  } else if (node.is_number()) {
+    value = number(key, node);
+  }
+  constexpr double most = 1e7;
+  if (!(value > 0.0 && value <= most)) {
+    place(node).fail(
+        fmt::format("{} = {}; it is a time of at most {:g} s with its unit, s, min or h: write {} = \"60 s\"", key,
+                    described(node), most, key));
+  }
+  return value;
+}
+
 std::int64_t Table::whole(std::string_view key, const toml::node& node, std::int64_t least, std::int64_t most) const {
   const auto value = node.value_exact<std::int64_t>();
   if (!value || *value < least || *value > most) {

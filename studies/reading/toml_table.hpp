@@ -82,6 +82,8 @@ class Table {
 
   /// A finite number.
   double number(std::string_view key, const toml::node& node) const;
+  /// A time in seconds, above 0: a number, or a text with its unit, "60 s", "10 min", "2 h".
+  double seconds(std::string_view key, const toml::node& node) const;
   /// A whole number from `least` to `most`.
   std::int64_t whole(std::string_view key, const toml::node& node, std::int64_t least, std::int64_t most) const;
   /// The entries of a list that is not empty.

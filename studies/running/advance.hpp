@@ -164,18 +164,21 @@ CaseResult advance(const Case& c, LineScheme& scheme, Source& source, const std:
   double t = 0.0;
   bool interrupted = false;
 
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   BoundWatch watch;
   const auto keep_going = [&](std::int64_t n, const TimeStep& step) {
     watch.step(n, step);
     count_step(result, n, step);
     t = step.end;
     const auto exact_size = [&] { return scene.solution_size(motion.at(t), t); };
-    const bool goes_on = growth.makes_sense(n, t, u.values(), exact_size);
-    interrupted = goes_on && t < scene.T() && stop.load(std::memory_order_relaxed);
+    const bool ended = t >= scene.T();
+    const bool goes_on = growth.makes_sense(n, t, u.values(), exact_size) &&
+                         (ended || !std::isfinite(c.limit) || !gave_out(result, c, elapsed(), t));
+    interrupted = goes_on && !ended && stop.load(std::memory_order_relaxed);
     return goes_on && !interrupted;
   };
 
-  const auto start = std::chrono::steady_clock::now();
   try {
     LineSchemeInMotion<Motion> system(c, scheme, source, motion, watch, result);
     Stepper stepper(*c.integrator, u.size());
@@ -187,7 +190,7 @@ CaseResult advance(const Case& c, LineScheme& scheme, Source& source, const std:
     result.failure = failure_in_step(error, result, t);
   }
   result.against_bound = watch.result();
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = elapsed();
   if (interrupted) return result;
 
   conclude(

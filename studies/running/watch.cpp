@@ -6,6 +6,13 @@
 
 namespace acstudy {
 
+bool gave_out(CaseResult& result, const Case& c, double seconds, double t) {
+  if (!(seconds > c.limit)) return false;
+  result.failure =
+      fmt::format("{}{:g} s, at t = {:.3g} of {:.3g} with N = {}", over_limit, c.limit, t, c.scene->T(), c.N);
+  return true;
+}
+
 void BoundWatch::step(std::int64_t n, TimeStep step) {
   const double ratio = step.dt / bound_;
   if (ratio > result_.largest) result_.largest = ratio;

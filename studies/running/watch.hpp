@@ -23,6 +23,10 @@ inline void count_step(CaseResult& result, std::int64_t n, TimeStep step) {
   result.steps = n;
 }
 
+/// True once a run has taken longer than the limit of its case; its result then says so.
+/// @param t  the time that it has come to
+bool gave_out(CaseResult& result, const Case& c, double seconds, double t);
+
 /// Compares explicit steps with the bound of their lemma at the particles of each stage.
 class BoundWatch {
  public:

@@ -91,7 +91,7 @@ json series_json(const Finding& finding, const SeriesResult& result) {
   json out;
   series.stored([&out](const Stored& as, const auto& value) { json_form::put(out, as, value); });
   out.update(finding_json(finding));
-  out["cases_planned"] = series.cases.size();
+  out["cases_planned"] = result.results.size();
   out["cases"] = json::array();
   for (const std::size_t i : result.completed_levels()) {
     out["cases"].push_back(case_json(series.cases[i], result.results[i]));

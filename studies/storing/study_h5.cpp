@@ -31,7 +31,7 @@ void write_series(hid_t parent, const std::string& group_name, const SeriesResul
   series.stored([&](const Stored& as, const auto& value) {
     if (as.column() != "theory_order") h5::write(group, as.column(), value);  // of the verdict, which has it
   });
-  h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(series.cases));
+  h5::write_number<std::int64_t>(group, "cases_planned", std::ssize(result.results));
   write_verdict(group, verdict);
   h5::write_column<double>(group, "pairwise", verdict.judgement.pairwise);
 

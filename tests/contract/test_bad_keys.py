@@ -24,7 +24,7 @@ MISTAKES = {
     "unknown key of a kernel": (kernel('{ name = "power", alpha = 0.5, @beta = 1 }'),
                                 'unknown key "beta" in kernel; known keys: name, alpha, profile, eta, breaks, exponent'),
     "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step, '
-                              'safety, bound, expect'),
+                              'safety, bound, limit, expect'),
     "unknown key in [[path]]": (bad((SOURCE, '@target = "local"')),
                                 'unknown key "target" in [[path]]; known keys: name, delta, N, source, reference, '
                                 'expect, order, start'),

@@ -4,11 +4,25 @@ import unittest
 
 from tests.bad_studies import (COARSE, FLOW, KERNEL, LEVELS, NAMES, PATH_TABLE, POSITIVE_DELTA, POSITIVE_STEP,
                                SCHEME_TABLE, STEP, Mistakes, bad, bad_delta, inline, kernel, kernel_ii)
-from tests.program import MODEL_II, STUDY, USE, edit
+from tests.program import MODEL_II, STUDY, UNSOLVED, USE, edit
 
 KERNELS = ("inverse, power, cubic-spline, quartic-spline, quintic-spline, wendland-c2, wendland-c4, wendland-c6, "
            "truncated-gaussian, constant, hat")
 MISTAKES = {
+    # Budgets
+    "a limit without a unit": (bad((STEP, STEP + '\nlimit = @"30"')), 'limit = "30"; it is a time of at most 1e+07 s with '
+                               'its unit, s, min or h: write limit = "60 s"'),
+    "a limit that nothing keeps": (bad((STEP, STEP + "\nlimit = @0")), "limit = 0; it is a time of at most 1e+07 s with its "
+                                   'unit, s, min or h: write limit = "60 s"'),
+    "too few levels to add": (bad((LEVELS, '{ from = 40, until = "decided", most = @319 }')),
+                              "most = 319, which 3 levels from 40 on do not pass; an order takes 4: write most = 320"),
+    "levels from nowhere": (bad((LEVELS, '@{ until = "decided", most = 320 }')),
+                            'N has no "from"; write, for example, from = 40'),
+    "levels until something else": (bad((LEVELS, '{ from = 40, until = @"confirmed", most = 320 }')),
+                                    'until = "confirmed"; it must be one of "decided"'),
+    "levels to add without u": (edit(UNSOLVED, (LEVELS, '@{ from = 40, until = "decided", most = 320 }')),
+                                "levels are added where u is known, as a reference has to be finer than all of them; write "
+                                "N = [160, 320, 640, 1280]"),
     # Schemes
     "unknown kernel": (kernel('@"gauss"'), f'unknown kernel "gauss"; known kernels: {KERNELS}'),
     "unknown kernel in a table": (kernel('{ name = @"gauss" }'),

@@ -72,6 +72,7 @@ INLINE = {"kernel": 'kernel = { name = "power", alpha = 0.5 }',
           "kernel.eta": 'kernel = { eta = "1-s" }',
           "kernel.breaks": 'kernel = { eta = "1-s", breaks = "1/2" }',
           "kernel.exponent": 'kernel = { eta = "1-s", exponent = 0.5 }',
+          "N": 'N = { from = 40, until = "decided", most = 320 }',
           "start": 'start = { name = "jittered", smallest_gap = 0.1, seed = 1 }'}
 
 

@@ -66,7 +66,7 @@ Bench plan_bench(std::span<const Study> studies, const std::vector<int>& threads
     for (const Series& series : study.series) {
       for (const int count : threads) {
         BenchSeries& planned = bench.series.emplace_back(BenchSeries{&study, &series, count, {}});
-        for (const Case& c : series.cases) {
+        for (const Case& c : std::span(series.cases).first(series.cases_at_first())) {
           const BenchCase one{.c = &c, .threads = count, .form = {}, .result = {}, .samples = {}};
           const auto [entry, is_new] = index_of.try_emplace(bench_key(one), bench.cases.size());
           if (is_new) bench.cases.push_back(one);

@@ -95,6 +95,16 @@ Progress::~Progress() {
   if (!silent_) put(erased());
 }
 
+void Progress::case_added(double work, const std::vector<std::size_t>& studies) {
+  const std::lock_guard lock(mutex_);
+  const auto add = [&](Pace& pace) {
+    ++pace.cases;
+    pace.work += work;
+  };
+  add(all_);
+  for (const std::size_t s : studies) add(studies_[s].pace);
+}
+
 void Progress::case_done(double work, const std::vector<std::size_t>& studies) {
   const std::lock_guard lock(mutex_);
   add_case(all_, work, now());

@@ -59,6 +59,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// One case more that these studies want.
+  void case_added(double work, const std::vector<std::size_t>& studies);
   /// A case is done that these studies want.
   void case_done(double work, const std::vector<std::size_t>& studies);
   void finding_done(std::size_t study);

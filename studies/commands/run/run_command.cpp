@@ -7,6 +7,7 @@
 
 #include "studies/commands/command.hpp"
 #include "studies/commands/exit.hpp"
+#include "studies/commands/forecast/forecast.hpp"
 #include "studies/commands/output.hpp"
 #include "studies/commands/run/summary.hpp"
 #include "studies/commands/say.hpp"
@@ -37,6 +38,7 @@ int run(const std::vector<std::string>& files, const RunOptions& options, bool v
       }
     }
   }
+  require_memory(studies);
   prepare_folder(options.out);
   double seconds = 0.0;
   RunResult result;

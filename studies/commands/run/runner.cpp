@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "studies/cases/series_verdict.hpp"
 #include "studies/commands/run/batches.hpp"
 #include "studies/commands/run/earlier_results.hpp"
 #include "studies/commands/run/journals.hpp"
@@ -34,7 +35,9 @@ struct Open {
   };
   std::vector<const Case*> cases;                                 ///< distinct
   std::vector<std::vector<Place>> wanted_by;                      ///< where each of them is wanted
+  std::vector<bool> done;                                         ///< whether it is computed
   std::vector<std::size_t> cases_of;                              ///< how many places each study has that are empty
+  std::vector<std::vector<std::size_t>> levels_of;                ///< the same of each of its series
   std::vector<std::pair<std::size_t, std::size_t>> measurements;  ///< study, number within it
   std::unordered_map<std::string, std::size_t> index_of;          ///< by storage_key()
 };
@@ -43,8 +46,13 @@ class Runner {
  public:
   Runner(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop)
       : studies_(studies), options_(options), stop_(stop) {
-    const EarlierResults earlier = earlier_results(studies, options);
-    for (std::size_t s = 0; s < studies.size(); ++s) take_up(s, earlier);
+    earlier_ = earlier_results(studies, options);
+    for (std::size_t s = 0; s < studies.size(); ++s) take_up(s);
+    // What is kept is for levels that are added later.
+    const auto adds_levels = [](const Study& study) {
+      return std::any_of(study.series.begin(), study.series.end(), [](const Series& s) { return s.until_decided; });
+    };
+    if (std::none_of(studies.begin(), studies.end(), adds_levels)) earlier_ = {};
     journals_.emplace(options.out, run_.studies, mutex_);
     plans_ = plan(open_.cases);
   }
@@ -78,17 +86,20 @@ class Runner {
 
  private:
   /// Takes what is there of a study, and asks for the rest.
-  void take_up(std::size_t s, const EarlierResults& earlier) {
+  void take_up(std::size_t s) {
     const Study& study = studies_[s];
     StudyResult& result = run_.studies.emplace_back(StudyResult{&study, {}, {}});
     run_.seconds.push_back(0.0);
     open_.cases_of.push_back(0);
+    open_.levels_of.emplace_back(study.series.size(), 0);
     for (const Series& series : study.series) {
+      const std::size_t number = result.series.size();
       result.series.push_back({&series, {}});
-      result.series.back().results.resize(series.cases.size());
-      for (std::size_t i = 0; i < series.cases.size(); ++i) take_up({s, result.series.size() - 1, i}, earlier);
+      result.series.back().results.reserve(series.cases.size());  // journals point to results
+      for (std::size_t i = 0; i < series.cases_at_first(); ++i) take_up_level(s, number);
+      add_levels(s, number);
     }
-    const StoredCases& stored = earlier.each[s];
+    const StoredCases& stored = earlier_.each[s];
     result.findings.resize(study.measurements.size());
     const bool reusable = open_.cases_of[s] == 0 && stored.findings_key == findings_key(study) && !options_.fresh;
     bool measured = true;
@@ -108,26 +119,67 @@ class Runner {
     provenance_.push_back(untouched ? stored.provenance : collect_provenance(options_.jobs, options_.command));
   }
 
-  void take_up(const Open::Place& place, const EarlierResults& earlier) {
-    const Case& c = studies_[place.study].series[place.series].cases[place.level];
+  /// The next level of a series; true if it is a case that nobody has asked for.
+  bool take_up_level(std::size_t s, std::size_t number) {
+    std::vector<CaseResult>& results = run_.studies[s].series[number].results;
+    const Open::Place place{s, number, results.size()};
+    results.emplace_back();
+    const Case& c = studies_[s].series[number].cases[place.level];
     const std::string key = storage_key(c);
-    if (const auto found = earlier.cases.find(key); found != earlier.cases.end()) {
+    if (const auto found = earlier_.cases.find(key); found != earlier_.cases.end()) {
       // With --fresh it stands until the new result is there, so that an interruption loses nothing.
       result_at(place) = found->second;
-      // What kept a program from its work may be gone.
-      const bool again = options_.fresh || (c.scheme.program != nullptr && !found->second.failure.empty());
+      // What kept a program from its work may be gone, and a limit be another, or a machine less busy.
+      const std::string& failure = found->second.failure;
+      const bool again =
+          options_.fresh || failure.starts_with(over_limit) || (c.scheme.program != nullptr && !failure.empty());
       if (!again) {
         ++run_.reused;
-        return;
+        return false;
       }
     }
     const auto [entry, is_new] = open_.index_of.try_emplace(key, open_.cases.size());
     if (is_new) {
       open_.cases.push_back(&c);
       open_.wanted_by.emplace_back();
+      open_.done.push_back(false);
+    } else if (open_.done[entry->second]) {
+      result_at(place) = result_at(open_.wanted_by[entry->second].front());
+      ++run_.reused;
+      return false;
+    } else if (c.limit > open_.cases[entry->second]->limit) {
+      open_.cases[entry->second] = &c;  // the same numbers, with more time for them
     }
     open_.wanted_by[entry->second].push_back(place);
-    ++open_.cases_of[place.study];
+    ++open_.cases_of[s];
+    ++open_.levels_of[s][number];
+    return is_new;
+  }
+
+  /// Where levels are added until they decide: those that it takes beyond the ones that are there, up to one that has
+  /// to be run. The next is asked for when that is done, so what is run depends on results alone. True for a new case.
+  bool add_levels(std::size_t s, std::size_t number) {
+    const Series& series = studies_[s].series[number];
+    const std::vector<CaseResult>& results = run_.studies[s].series[number].results;
+    if (!series.until_decided) return false;
+    const auto& verdict =
+        *std::find_if(studies_[s].measurements.begin(), studies_[s].measurements.end(),
+                      [&](const Measurement& measurement) { return measurement.check.series == number; });
+    while (results.size() < series.cases.size() && open_.levels_of[s][number] == 0 &&
+           !is_decided(verdict.take(run_.studies[s].series))) {
+      if (take_up_level(s, number)) return true;
+    }
+    return false;
+  }
+
+  /// The same while batches run.
+  void add_levels_in_run(std::size_t s, std::size_t number) {
+    if (!add_levels(s, number)) return;
+    const Case& added = *open_.cases.back();
+    plans_.push_back(plan(added));
+    batches_.push_front({{plans_.size() - 1}, added.estimated_work()});
+    progress_->case_added(added.estimated_work(), {s});
+    changed_.notify_all();
   }
 
   /// The studies that want an open case, each once.
@@ -211,9 +263,9 @@ class Runner {
     const Batch batch = std::move(batches_.front());
     batches_.pop_front();
     ++running_;
-    lock.unlock();
     std::vector<Plan> these;
     for (const std::size_t i : batch.cases) these.push_back(plans_[i]);
+    lock.unlock();
     std::vector<CaseResult> results;
     std::exception_ptr failure;
     double seconds = 0.0;
@@ -248,14 +300,18 @@ class Runner {
       const std::vector<std::size_t> studies = wanting(i);
       progress_->case_done(work, studies);
       std::set<std::size_t> unsaved;
-      for (const Open::Place& place : open_.wanted_by[i]) {
+      open_.done[i] = true;
+      const std::vector<Open::Place> places = open_.wanted_by[i];
+      for (const Open::Place& place : places) {
         CaseResult& result = result_at(place);
         result = results[k];
         if (unsaved.insert(place.study).second) {
           journals_->unsaved(place.study).cases.emplace_back(open_.cases[i], &result);
         }
         --open_.cases_of[place.study];
+        --open_.levels_of[place.study][place.series];
       }
+      for (const Open::Place& place : places) add_levels_in_run(place.study, place.series);
       for (const std::size_t s : studies) {
         run_.seconds[s] += seconds * work / done / static_cast<double>(studies.size());
         finish_if_complete(s);
@@ -291,6 +347,7 @@ class Runner {
   const std::atomic<bool>& stop_;
   RunResult run_;
   Open open_;
+  EarlierResults earlier_;
   std::vector<Plan> plans_;  ///< of the open cases
   std::vector<Provenance> provenance_;
   std::mutex mutex_;  ///< for results, journals and batches, and for HDF5

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -101,6 +102,7 @@ class Ensemble {
       m.growth.emplace(largest.all(larger));
       m.solution_at_first = largest.all(larger);
       m.lemma_bound = m.c.lemma_bound(1.0);
+      least_limit_ = std::min(least_limit_, m.c.limit);
     }
   }
 
@@ -143,6 +145,7 @@ class Ensemble {
     };
     const auto goes_on = [&](std::int64_t, const TimeStep& step) {
       if (!look(n, step)) return false;
+      if (std::isfinite(least_limit_) && step.end < scene_.T() && !within_limits(start)) return false;
       if (!weighed_up_ && std::isfinite(most_seconds_) && (n <= 64 || n % 16 == 0)) {
         const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (elapsed > 0.1 * most_seconds_) weigh_up(elapsed, step.end / scene_.T());
@@ -152,6 +155,21 @@ class Ensemble {
     };
     step_to_end(
         first_, [&](double t) { return lemma_bound(t); }, take, goes_on);
+  }
+
+  /// Ends cases whose share of the time since `start` is above their limit; false if no case is left.
+  bool within_limits(std::chrono::steady_clock::time_point start) {
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (elapsed + setup_seconds_ <= least_limit_) return true;
+    bool any = false;
+    for (Member& m : members_) {
+      if (!m.running) continue;
+      share_time(m, elapsed);
+      m.running = !gave_out(m.result, m.c, m.result.seconds, m.t);
+      if (!m.running) m.group->remove(m.values);
+      any |= m.running;
+    }
+    return any;
   }
 
   /// Puts groups off if all would take much longer than is wanted, by what this part of the run has taken. What is put
@@ -295,6 +313,7 @@ class Ensemble {
 
   const std::atomic<bool>& stop_;
   double most_seconds_;
+  double least_limit_ = std::numeric_limits<double>::infinity();  ///< of all cases
   bool interrupted_ = false, weighed_up_ = false;
   Team team_;
   const Scene& scene_;

@@ -59,7 +59,7 @@ class SchemaTest(ProgramTest):
     def test_what_a_reader_refuses_is_seen(self):
         self.assertEqual(self.errors(STUDY), [])
         for old, new in (("[time]", "[tim]"), ("step =", "steps ="), ('"local"\nkernel', '"both"\nkernel'),
-                         ("model = 1", 'model = "1"'), ('"inverse"', '"inverted"'), ('"inverse"', '{ nam = "power" }'),
+                         ("model = 1", "model = 1.5"), ('"inverse"', '"inverted"'), ('"inverse"', '{ nam = "power" }'),
                          ("[16, 32, 64]", "[]"), ('name = "tiny"', 'name = "tiny"\nkind = "covergence"'),
                          ('name = "tiny"', 'name = "tiny"\nkind = "identities"'), ("[study]", "[a]\nb = 1\n\n[study]"),
                          ('integrator = "forward-euler"', 'integrator = "euler"')):

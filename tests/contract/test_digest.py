@@ -84,7 +84,8 @@ class BuildTest(unittest.TestCase):
         cls.objects = {}  # of every source of the program; some are compiled several times
         for target in (BUILD / "CMakeFiles").glob("acstudy*.dir"):
             for file in target.rglob("*.o"):
-                cls.objects.setdefault(str(file.relative_to(target))[:-2], []).append(file)
+                for source in cls.sources_of(file, target):
+                    cls.objects.setdefault(source, []).append(file)
         cls.read = {}  # by object: the project's files that the compiler read
         if (BUILD / "build.ninja").exists():
             done = subprocess.run(["ninja", "-C", BUILD, "-t", "deps"], text=True, capture_output=True, check=True)
@@ -92,10 +93,18 @@ class BuildTest(unittest.TestCase):
                 head, *files = block.splitlines()
                 cls.read[BUILD / head.split(": #deps")[0]] = cls.of_the_project(files)
         else:
-            for file in sum(cls.objects.values(), []):
+            for file in set(sum(cls.objects.values(), [])):
                 text = Path(f"{file}.d").read_text(encoding="utf-8").replace("\\\n", " ")
                 names = re.split(r"(?<!\\)\s+", text.split(":", 1)[1].strip())
                 cls.read[file] = cls.of_the_project(name.replace("\\ ", " ") for name in names)
+
+    @staticmethod
+    def sources_of(file, target):
+        """What an object is made of: a source, or those of a folder that are read as one."""
+        if file.parent.name != "Unity":
+            return [str(file.relative_to(target))[:-2]]
+        together = file.with_suffix("").read_text(encoding="utf-8")
+        return [os.path.relpath(source, ROOT) for source in re.findall(r'#include "(.*)"', together)]
 
     @staticmethod
     def of_the_project(names):

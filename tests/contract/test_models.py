@@ -54,6 +54,8 @@ class Kernels(unittest.TestCase):
     def test_no_source_but_the_registry_names_a_kernel(self):
         found = {str(file): named for file in sources() if str(file) != REGISTRY
                  if (named := self.names.findall((ROOT / file).read_text(encoding="utf-8")))}
+        self.assertEqual(set(found.pop("studies/commands/authoring/first_study.cpp")),  # a study
+                         {'"inverse"', '"power"', '"cubic-spline"'})
         self.assertEqual(found, {"studies/claims/extremes_shapes.cpp": ['"hat"']})  # a shape of u
 
     def test_a_source_that_names_one_is_seen(self):

@@ -147,7 +147,7 @@ Command scene_command() {
             .one_of = {"local", "nonlocal"}},
            {.name = "--kernel",
             .target = &r->kernel,
-            .help = "of the model: a name, or a table such as '{ name = \"power\", alpha = 0.5 }'",
+            .help = "of the model: a name, or a table as studies write it",
             .type = "KERNEL"},
            {.name = "--delta", .target = &r->delta, .help = "horizon of the model"},
            {.name = "--mu", .target = &r->mu, .help = "viscosity bound of Model II, max |c - b| by default"},

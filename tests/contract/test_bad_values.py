@@ -7,7 +7,7 @@ from tests.bad_studies import (COARSE, FLOW, KERNEL, LEVELS, NAMES, PATH_TABLE, 
 from tests.program import MODEL_II, STUDY, UNSOLVED, USE, edit
 
 KERNELS = ("inverse, power, cubic-spline, quartic-spline, quintic-spline, wendland-c2, wendland-c4, wendland-c6, "
-           "truncated-gaussian, constant, hat")
+           "gaussian, constant, hat")
 MISTAKES = {
     # Budgets
     "a limit without a unit": (bad((STEP, STEP + '\nlimit = @"30"')), 'limit = "30"; it is a time of at most 1e+07 s with '

@@ -59,15 +59,18 @@ class TableTest(ProgramTest):
         self.assertEqual(first[5][1], self.series[0]["verdict"])
 
     def test_uncertain_digits_stand_in_brackets(self):
+        by_path = {}
         for one in self.series:
-            order, low, high = (one["observed"][name] for name in ("order", "low", "high"))
-            half = max(order - low, high - order)
-            place = re.search(r"\| ([-\d.]+)\((\d+)\) \|", self.table())
-            self.assertIsNotNone(place)
-            if place and one is self.series[0]:
-                digits = len(place[1].partition(".")[2])
-                self.assertLessEqual(abs(float(place[1]) - order), 0.5 * 10.0**-digits)
-                self.assertLessEqual(abs(int(place[2]) * 10.0**-digits - half), 0.5 * 10.0**-digits)
+            if all(one["observed"].get(name) is not None for name in ("order", "low", "high")):
+                by_path.setdefault(one["path"], []).append(one["observed"])
+        printed = re.findall(r" ([-\d.]+)\((\d+)\) \|", self.table())
+        known = [observed for path in by_path.values() for observed in path]
+        self.assertGreater(len(known), 1)
+        for (text, uncertain), observed in zip(printed, known, strict=True):
+            half = max(observed["order"] - observed["low"], observed["high"] - observed["order"])
+            unit = 10.0**-len(text.partition(".")[2])
+            self.assertLessEqual(abs(float(text) - observed["order"]), 0.5 * unit + 1e-12)
+            self.assertLessEqual(abs(int(uncertain) * unit - half), 0.5 * unit + 1e-12)
 
     @unittest.skipUnless(shutil.which("pdflatex"), "there is no pdflatex")
     def test_latex_compiles(self):

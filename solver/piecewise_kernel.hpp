@@ -25,14 +25,13 @@ namespace acstudy {
 struct KernelPieces {
   double exponent = 0.0;                        ///< < 2
   double moment_power = 0.0, mass_power = 0.0;  ///< 0 where the integrals are polynomials
+  std::vector<double> corners;                  ///< those of the bounds where the kernel is not smooth
   std::vector<double> bounds;                   ///< 0 = bounds[0] < bounds[1] < ... = 1; two pieces at least
   std::vector<double> origin, direction;        ///< of each piece
   std::size_t terms = 0;                        ///< coefficients of each polynomial
   std::vector<double> eta, moment, mass;        ///< of eta, int r eta(r) dr and int eta(r) dr; the last may be empty
 
   std::size_t count() const { return origin.size(); }
-  /// Its integrals are polynomials on all pieces.
-  bool polynomial() const { return moment_power == 0.0 && mass_power == 0.0; }
 };
 
 /// A kernel by its pieces, for Model I.
@@ -59,6 +58,8 @@ class PiecewiseKernel {
     return i == 0 || pieces_->exponent == 0.0 ? value : value * std::pow(z, pieces_->exponent);
   }
   std::span<const double> breaks() const { return std::span(pieces_->bounds).subspan(1, pieces_->count() - 1); }
+  /// Those of them where the kernel is not smooth; at the others one polynomial does not do.
+  std::span<const double> corners() const { return pieces_->corners; }
   const KernelPieces& pieces() const { return *pieces_; }
 
  protected:

@@ -53,12 +53,12 @@ class UpwindSource : public NonlocalSource {
   Velocities at_y_;
 };
 
-std::unique_ptr<Source> source(const Scene& scene, const NonlocalModel& model, std::size_t points, Look look) {
+std::unique_ptr<Source> upwind_source(const Scene& scene, const NonlocalModel& model, std::size_t points, Look look) {
   return std::make_unique<UpwindSource>(scene, model, derivative_rule(model.kernel, points), look);
 }
 
-code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std::size_t points,
-                            const code::Language& in) {
+code::SourceFormula upwind_formula(const Scene& scene, const NonlocalModel& model, std::size_t points,
+                                   const code::Language& in) {
   const auto at_y = [&](const char* name, const char* arguments = "y") { return call(in, name, arguments); };
   const std::string weight = in.entry("gauss", "weight");
   code::Sum sum{"gauss", derivative_rule(model.kernel, points), {}};
@@ -75,7 +75,7 @@ code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std:
 }
 
 /// The slopes of c_hat u and, if it is nonlocal, of b over the distance r upwind of x.
-std::function<double(double)> integrand(const Scene& scene, const NonlocalModel& model, double x, double t) {
+std::function<double(double)> upwind_integrand(const Scene& scene, const NonlocalModel& model, double x, double t) {
   const PointFields at(scene, t);
   const bool nonlocal_divergence = model.nonlocal_divergence && !scene.standing();
   const double s = at.c_hat(x).value > 0.0 ? 1.0 : -1.0, small = at.small();
@@ -94,6 +94,7 @@ std::function<double(double)> integrand(const Scene& scene, const NonlocalModel&
 
 }  // namespace
 
-const ContinuumModel upwind_continuum = {.source = source, .integrand = integrand, .sided = true, .formula = formula};
+const ContinuumModel upwind_continuum = {
+    .source = upwind_source, .integrand = upwind_integrand, .sided = true, .formula = upwind_formula};
 
 }  // namespace acstudy

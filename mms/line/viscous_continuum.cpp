@@ -65,13 +65,13 @@ class ViscousSource : public NonlocalSource {
   Velocities at_midpoint_;
 };
 
-std::unique_ptr<Source> source(const Scene& scene, const NonlocalModel& model, std::size_t points, Look) {
+std::unique_ptr<Source> viscous_source(const Scene& scene, const NonlocalModel& model, std::size_t points, Look) {
   return std::make_unique<ViscousSource>(scene, model, derivative_rule(model.kernel, points),
                                          viscous_rule(model.kernel, points));
 }
 
-code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std::size_t points,
-                            const code::Language& in) {
+code::SourceFormula viscous_formula(const Scene& scene, const NonlocalModel& model, std::size_t points,
+                                    const code::Language& in) {
   const auto of = [&](const char* name, const char* arguments) { return call(in, name, arguments); };
   const std::string weight = in.entry("gauss", "weight"), delta = in.own("delta");
   code::Sum sum{"gauss", derivative_rule(model.kernel, points), {}};
@@ -95,7 +95,7 @@ code::SourceFormula formula(const Scene& scene, const NonlocalModel& model, std:
 }
 
 /// The slopes of the pair flux and, if it is nonlocal, of b over the distance r to both sides of x, and the bend of u.
-std::function<double(double)> integrand(const Scene& scene, const NonlocalModel& model, double x, double t) {
+std::function<double(double)> viscous_integrand(const Scene& scene, const NonlocalModel& model, double x, double t) {
   const PointFields at(scene, t);
   const bool nonlocal_divergence = model.nonlocal_divergence && !scene.standing();
   const double delta = model.delta, mu = model.mu, small = at.small();
@@ -117,6 +117,7 @@ std::function<double(double)> integrand(const Scene& scene, const NonlocalModel&
 
 }  // namespace
 
-const ContinuumModel viscous_continuum = {.source = source, .integrand = integrand, .sided = false, .formula = formula};
+const ContinuumModel viscous_continuum = {
+    .source = viscous_source, .integrand = viscous_integrand, .sided = false, .formula = viscous_formula};
 
 }  // namespace acstudy

@@ -106,14 +106,25 @@ class ExactCells {
  public:
   ExactCells(const KernelChoice&, const K& kernel) : kernel_(kernel) {}
   Exact operator()(CellWeights of, const Exact& from, const Exact& to) const {
-    if constexpr (IntegrableKernel<K>) {
-      if (of == CellWeights::masses) return exact_mass(kernel_, to) - exact_mass(kernel_, from);
-    }
-    return exact_moment(kernel_, to) - exact_moment(kernel_, from);
+    const Exact inner = of == last_of_ && from == last_to_ ? last_within_ : within(of, from);
+    last_of_ = of;
+    last_to_ = to;
+    last_within_ = within(of, to);
+    return last_within_ - inner;
   }
 
  private:
+  Exact within(CellWeights of, const Exact& z) const {
+    if constexpr (IntegrableKernel<K>) {
+      if (of == CellWeights::masses) return exact_mass(kernel_, z);
+    }
+    return exact_moment(kernel_, z);
+  }
+
   const K& kernel_;
+  /// A cell begins where the one before has ended, and powers of fifty digits take long.
+  mutable CellWeights last_of_{};
+  mutable Exact last_to_ = -1, last_within_ = 0;
 };
 
 template <Kernel K>

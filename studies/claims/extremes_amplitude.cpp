@@ -11,7 +11,7 @@ namespace acstudy {
 namespace {
 
 const std::string amplitude = "amplitude 1e300 and 1e-300";
-constexpr std::int64_t N = 32, steps = 12;
+constexpr std::int64_t N_amplitude = 32, steps_amplitude = 12;
 
 /// The paper's scene to T = 1/8, u times a factor.
 std::shared_ptr<const Scene> scaled(double factor, const std::string& plus = "") {
@@ -29,18 +29,18 @@ void compare_runs(Finding& row, const Subject& subject, double ratio, const std:
   const auto solve = [&](double factor, const std::string& more) {
     Subject one = subject;
     one.scene = scaled(factor, more);
-    const double h = one.scene->period() / static_cast<double>(N);
-    return run(case_of(one, N, ratio * h, steps, "ssprk3"));
+    const double h = one.scene->period() / static_cast<double>(N_amplitude);
+    return run(case_of(one, N_amplitude, ratio * h, steps_amplitude, "ssprk3"));
   };
   const CaseResult base = solve(1.0, "");
   for (const double factor : factors) {
     const CaseResult result = solve(factor, plus);
     const bool exact = std::exp2(std::round(std::log2(factor))) == factor;
     // Three stages a step, each with a rounding per neighbor and a few more; nothing grows by more than e in this time.
-    const double rounded = std::exp(1.0) * 3.0 * static_cast<double>(steps) * (4.0 * ratio + 24.0) * epsilon;
+    const double rounded = std::exp(1.0) * 3.0 * static_cast<double>(steps_amplitude) * (4.0 * ratio + 24.0) * epsilon;
     const auto add = [&](const std::string& what, double value, double upper) {
-      row.points.push_back({.N = N,
-                            .delta = ratio * 2.0 * std::numbers::pi / static_cast<double>(N),
+      row.points.push_back({.N = N_amplitude,
+                            .delta = ratio * 2.0 * std::numbers::pi / static_cast<double>(N_amplitude),
                             .variable = factor,
                             .value = value,
                             .upper = upper,
@@ -54,8 +54,8 @@ void compare_runs(Finding& row, const Subject& subject, double ratio, const std:
     add("u", farthest, exact ? 0.0 : rounded);
     const auto error = [&](const char* which, double scaled_error, double error_of_base, bool sum_of_squares) {
       // A sum of squares goes through roots, which are rounded.
-      const double upper = exact ? (sum_of_squares ? 4.0 * static_cast<double>(N) * epsilon : 0.0)
-                                 : rounded / error_of_base + 4.0 * static_cast<double>(N) * epsilon;
+      const double upper = exact ? (sum_of_squares ? 4.0 * static_cast<double>(N_amplitude) * epsilon : 0.0)
+                                 : rounded / error_of_base + 4.0 * static_cast<double>(N_amplitude) * epsilon;
       add(which, std::abs(scaled_error / factor / error_of_base - 1.0), upper);
     };
     error("max error", result.error_linf, base.error_linf, false);

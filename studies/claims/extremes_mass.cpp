@@ -10,8 +10,8 @@ namespace acstudy {
 
 namespace {
 
-const std::string statement = "mass drift";
-const std::string quantity = "relative drift of sum V_j u_j: largest over t, root mean square over runs";
+const std::string mass_drift = "mass drift";
+const std::string relative_drift = "relative drift of sum V_j u_j: largest over t, root mean square over runs";
 
 /// sum V_j u_j, V_j half the distance between the two neighbors of particle j.
 double mass(std::span<const double> x, std::span<const double> u, double period) {
@@ -81,7 +81,8 @@ void add_conserved(ExtremeRows& rows, const SchemeChoice& scheme) {
   for (const Velocity& velocity : velocities) {
     if (velocity.any_sign && !scheme.model->conserves_any_sign) continue;
     const auto named = [&](const Subject& subject) {
-      return subject.check(statement, velocity.claim, {velocity_is(velocity.c), {"bound", "to round-off"}}, quantity);
+      return subject.check(mass_drift, velocity.claim, {velocity_is(velocity.c), {"bound", "to round-off"}},
+                           relative_drift);
     };
     const Subject subject = subject_on(scheme, scene_with(velocity.c));
     const Subject jittered = subject_on(scheme, scene_with(velocity.c), Arrangement::jittered);
@@ -102,9 +103,9 @@ void add_drifting(ExtremeRows& rows, const SchemeChoice& scheme, std::int64_t le
     }
   };
   const auto named = [](const MassRun& run, const Coordinate& fields) {
-    Check check =
-        run.subject.check(statement, "elsewhere mass is not conserved, and its drift vanishes with order 1 at least",
-                          {fields, run.ratio ? at_ratio(*run.ratio) : at_horizon(*run.horizon)}, quantity, Test::rate);
+    Check check = run.subject.check(
+        mass_drift, "elsewhere mass is not conserved, and its drift vanishes with order 1 at least",
+        {fields, run.ratio ? at_ratio(*run.ratio) : at_horizon(*run.horizon)}, relative_drift, Test::rate);
     check.theory_order = 1.0;
     return check;
   };

@@ -11,7 +11,7 @@ namespace acstudy {
 namespace {
 
 const std::string coincident = "coincident particles";
-constexpr std::size_t N = 16;
+constexpr std::size_t N_positions = 16;
 
 struct Placement {
   std::string name;
@@ -22,35 +22,38 @@ struct Placement {
 std::vector<Placement> refused_placements() {
   std::vector<Placement> all;
   const auto add = [&](const std::string& name, std::size_t j, double position) {
-    all.push_back({name, uniform_positions(N, 1.0)});
+    all.push_back({name, uniform_positions(N_positions, 1.0)});
     all.back().x[j] = position;
   };
-  const std::vector<double> x = uniform_positions(N, 1.0);
+  const std::vector<double> x = uniform_positions(N_positions, 1.0);
   add("x_5 = x_4", 5, x[4]);
   add("x_5 an ulp below x_4", 5, std::nextafter(x[4], 0.0));
   add("x_5 beyond x_6", 5, x[6] + 0.01);
-  add("x_15 = x_0 + period", N - 1, 1.0);
-  add("x_15 beyond x_0 + period", N - 1, 1.1);
+  add("x_15 = x_0 + period", N_positions - 1, 1.0);
+  add("x_15 beyond x_0 + period", N_positions - 1, 1.1);
   add("x_5 not a number", 5, std::nan(""));
   return all;
 }
 
 /// Positions with a smallest gap of an ulp.
 std::vector<Placement> nearest_placements() {
-  std::vector<Placement> all = {{"x_5 an ulp above x_4", uniform_positions(N, 1.0)},
-                                {"x_15 an ulp below x_0 + period", uniform_positions(N, 1.0)}};
+  std::vector<Placement> all = {{"x_5 an ulp above x_4", uniform_positions(N_positions, 1.0)},
+                                {"x_15 an ulp below x_0 + period", uniform_positions(N_positions, 1.0)}};
   all[0].x[5] = std::nextafter(all[0].x[4], 1.0);
-  all[1].x[N - 1] = std::nextafter(1.0, 0.0);
+  all[1].x[N_positions - 1] = std::nextafter(1.0, 0.0);
   return all;
 }
 
 void add_refusals(ExtremeRows& rows) {
   const auto place = [](Finding& row, const std::vector<Placement>& placements) {
     for (const Placement& placement : placements) {
-      Particles particles(N, 1.0, 0.2);
+      Particles particles(N_positions, 1.0, 0.2);
       const double value = refused<std::domain_error>([&] { particles.place(placement.x); }, "particles have crossed");
-      row.points.push_back(
-          {.N = static_cast<std::int64_t>(N), .value = value, .lower = 1.0, .upper = 1.0, .label = placement.name});
+      row.points.push_back({.N = static_cast<std::int64_t>(N_positions),
+                            .value = value,
+                            .lower = 1.0,
+                            .upper = 1.0,
+                            .label = placement.name});
     }
   };
   const auto named = [](const std::string& positions) {
@@ -69,12 +72,12 @@ void add_nearest(ExtremeRows& rows, const SchemeChoice& scheme) {
   const Subject subject = subject_on(scheme, scene_with("1"));
   const std::vector<double> ratios = {1e-12, 0.5, 3.5};
   const auto at_each = [ratios](Finding& row, const Subject& one, auto measure) {
-    const double h = 1.0 / static_cast<double>(N);
+    const double h = 1.0 / static_cast<double>(N_positions);
     for (const Placement& placement : nearest_placements()) {
       for (const double ratio : ratios) {
         PlacedScheme placed(one.scheme, *one.scene, one.mu, placement.x, ratio * h);
         Point point = measure(placed);
-        point.N = static_cast<std::int64_t>(N);
+        point.N = static_cast<std::int64_t>(N_positions);
         point.h = h;
         point.delta = ratio * h;
         point.variable = ratio;

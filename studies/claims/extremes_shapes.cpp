@@ -9,7 +9,7 @@ namespace acstudy {
 
 namespace {
 
-const std::string statement = "square wave and hat";
+const std::string square_wave_and_hat = "square wave and hat";
 
 struct Shape {
   std::string name;
@@ -35,9 +35,9 @@ double variation(std::span<const double> values) {
 }
 
 /// What is followed: how far values leave [0, 1], or the growth of the total variation.
-enum class Followed { range, variation };
+enum class Carried { range, variation };
 
-void carry(Finding& row, const Subject& subject, Followed followed) {
+void carry(Finding& row, const Subject& subject, Carried followed) {
   constexpr std::int64_t N = 120;
   const double h = 1.0 / static_cast<double>(N);
   for (const Shape& shape : shapes) {
@@ -49,13 +49,13 @@ void carry(Finding& row, const Subject& subject, Followed followed) {
           const double dt = cfl * step_at_cfl_one(subject, x, ratio * h);
           const std::int64_t steps = 150;
           const double start = variation(u);
-          double farthest = followed == Followed::range ? 0.0 : 1.0;
+          double farthest = followed == Carried::range ? 0.0 : 1.0;
           Particles particles(x.size(), 1.0, ratio * h);
           particles.place(x);
           run_freely(subject, {x, u}, ratio * h, static_cast<double>(steps) * dt, steps,
                      [&](const TimeStep&, std::span<const double>, std::span<const double> values) {
                        const double now =
-                           followed == Followed::range ? excursion(values, 0.0, 1.0) : variation(values) / start;
+                           followed == Carried::range ? excursion(values, 0.0, 1.0) : variation(values) / start;
                        if (worse(now, farthest)) farthest = now;
                      });
           const double rounded = static_cast<double>(steps) * step_round_off(subject, particles);
@@ -65,7 +65,7 @@ void carry(Finding& row, const Subject& subject, Followed followed) {
                .delta = ratio * h,
                .variable = ratio,
                .value = farthest,
-               .upper = followed == Followed::range ? rounded : 1.0 + 2.0 * static_cast<double>(N) * rounded / start,
+               .upper = followed == Carried::range ? rounded : 1.0 + 2.0 * static_cast<double>(N) * rounded / start,
                .label = fmt::format("{}, CFL {:g}", shape.name, cfl)});
         }
       }
@@ -78,10 +78,10 @@ void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arr
   const Subject subject = subject_on(scheme, scene_with("1"), arrangement);
   const Mistakes& mistakes = scheme.model->mistakes;
   const auto wrong = mistaken(subject, mistakes.not_monotone), classical = mistaken(subject, mistakes.classical);
-  const auto add = [&](const std::string& claim, const std::string& quantity, Followed followed) {
+  const auto add = [&](const std::string& claim, const std::string& quantity, Carried followed) {
     const auto named = [&](const Subject& one) {
-      return one.check(statement, claim,
-                       {{"of", followed == Followed::range ? "range" : "total variation"},
+      return one.check(square_wave_and_hat, claim,
+                       {{"of", followed == Carried::range ? "range" : "total variation"},
                         {"cfl", "1 and 1/2", "150 steps at CFL 1 and 1/2"}},
                        quantity);
     };
@@ -92,11 +92,10 @@ void add_monotone(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arr
     if (wrong) add_control(*wrong, "a scheme that is not monotone");
     if (classical) add_control(*classical, "the classical sum is not monotone");
   };
-  add("c constant: no over- or undershoot up to CFL 1", "largest excursion from [0, 1]", Followed::range);
+  add("c constant: no over- or undershoot up to CFL 1", "largest excursion from [0, 1]", Carried::range);
   // On equal gaps a step is an average of shifted copies, whose total variation is at most that of one of them.
   if (arrangement == Arrangement::uniform) {
-    add("c constant, equal gaps: the total variation does not grow", "total variation / its start",
-        Followed::variation);
+    add("c constant, equal gaps: the total variation does not grow", "total variation / its start", Carried::variation);
   }
 }
 
@@ -127,7 +126,7 @@ void add_orders(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement arran
     for (const double ratio : {0.4, 3.5}) {
       const auto named = [&](double order) {
         Check check = subject.check(
-            statement, fmt::format("the {} has order {} in L1", shape.name, shape.order == 1.0 ? "1" : "1/2"),
+            square_wave_and_hat, fmt::format("the {} has order {} in L1", shape.name, shape.order == 1.0 ? "1" : "1/2"),
             {{"shape", shape.name}, at_ratio(ratio), {"cfl", 0.5, "CFL 1/2"}}, "L1 error at T = 1/4", Test::order);
         check.theory_order = order;
         if (order != shape.order)

@@ -11,17 +11,17 @@ namespace acstudy {
 namespace {
 
 const std::vector<double> ratios = {1e-3, 0.7, 1.0, 3.5, 15.0};
-constexpr std::int64_t N = 48;
+constexpr std::int64_t N_velocity = 48;
 
 /// Calls `measure(placed, h)` at every horizon and arrangement, and makes what it returns a point.
 template <class Measure>
 void at_every_horizon(Finding& row, const Subject& subject, Measure&& measure) {
-  const double h = subject.scene->period() / static_cast<double>(N);
+  const double h = subject.scene->period() / static_cast<double>(N_velocity);
   for (const double ratio : ratios) {
-    for (const std::vector<double>& x : subject.positions(N)) {
+    for (const std::vector<double>& x : subject.positions(N_velocity)) {
       PlacedScheme placed(subject.scheme, *subject.scene, subject.mu, x, ratio * h);
       Point point = measure(placed);
-      point.N = N;
+      point.N = N_velocity;
       point.h = h;
       point.delta = ratio * h;
       point.variable = ratio;
@@ -57,7 +57,7 @@ void add_no_velocity(ExtremeRows& rows, const SchemeChoice& scheme, Arrangement 
         {at_cfl(cfl)}, "max norm of I + dt R");
   };
   const auto step = [=](Finding& row, double cfl) {
-    row.points = step_is_bounded(viscous, {{N}, ratios, {}}, StepCondition::corrected, cfl).take().points;
+    row.points = step_is_bounded(viscous, {{N_velocity}, ratios, {}}, StepCondition::corrected, cfl).take().points;
     row.variable = "delta/h";
   };
   rows.add(diffusion(1.0), [=](Finding& row) { step(row, 1.0); });
@@ -100,7 +100,7 @@ void add_constant_velocity(ExtremeRows& rows, const SchemeChoice& scheme, Arrang
                        {velocity_is(c), at_cfl(cfl)}, "max norm of I + dt R");
     };
     const auto step = [one](Finding& row, double cfl) {
-      row.points = step_is_bounded(one, {{N}, ratios, {}}, StepCondition::corrected, cfl).take().points;
+      row.points = step_is_bounded(one, {{N_velocity}, ratios, {}}, StepCondition::corrected, cfl).take().points;
       row.variable = "delta/h";
     };
     rows.add(norm(1.0), [=](Finding& row) { step(row, 1.0); });

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -71,7 +71,7 @@ struct Frozen {
 
   /// Of R; computed once for all steps.
   const Eigen::VectorXcd& eigenvalues() const {
-    if (!eigenvalues_) eigenvalues_ = Eigen::MatrixXd(R).eigenvalues();
+    if (!eigenvalues_) eigenvalues_ = acstudy::eigenvalues(Eigen::MatrixXd(R));
     return *eigenvalues_;
   }
 

@@ -1,5 +1,6 @@
 #include "studies/claims/step_operator.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -123,6 +124,8 @@ double norm_of_power(Eigen::MatrixXd S, std::int64_t n) {
   }
   return max_norm(power);
 }
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) { return matrix.eigenvalues(); }
 
 double spectral_radius(const Integrator& integrator, const Eigen::VectorXcd& eigenvalues, double dt) {
   double radius = 0.0;

@@ -59,6 +59,9 @@ double norm_of_power(Eigen::MatrixXd S, std::int64_t n);
 /// The product of two square matrices.
 Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
+/// Of a square matrix.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
 /// Largest |r(dt lambda)| over the eigenvalues of R.
 double spectral_radius(const Integrator& integrator, const Eigen::VectorXcd& eigenvalues, double dt);
 

@@ -12,28 +12,65 @@ namespace acstudy {
 
 namespace {
 
+/// Any kernel, found out at each call: one type, where run times matter less than how long it takes to build.
+class SomeKernel {
+ public:
+  explicit SomeKernel(AnyKernel kernel) : kernel_(std::move(kernel)) {}
+  double eta(double z) const {
+    return std::visit([z](const auto& k) { return k.eta(z); }, kernel_);
+  }
+  double first_moment(const auto& where) const {
+    return std::visit([&](const auto& k) { return k.first_moment(where); }, kernel_);
+  }
+  /// @throws std::logic_error if it is not integrable
+  double mass(const auto& where) const {
+    return std::visit(
+        [&]<class K>(const K& k) -> double {
+          if constexpr (IntegrableKernel<K>) return k.mass(where);
+          throw std::logic_error("the mass of a kernel that is not integrable");
+        },
+        kernel_);
+  }
+  double origin_exponent() const {
+    return std::visit([](const auto& k) { return k.origin_exponent(); }, kernel_);
+  }
+  double regular_part(double z) const {
+    return std::visit([z](const auto& k) { return k.regular_part(z); }, kernel_);
+  }
+  std::span<const double> breaks() const {
+    return std::visit([](const auto& k) { return k.breaks(); }, kernel_);
+  }
+
+ private:
+  AnyKernel kernel_;
+};
+
+SomeKernel integrable_one(const KernelChoice& choice) {
+  return with_integrable_kernel(choice, [](const auto& kernel) { return SomeKernel(AnyKernel(kernel)); });
+}
+
 template <class Mistake>
 std::unique_ptr<LineScheme> model1(const SchemeChoice& choice, const Scene& scene, double) {
-  const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
-    return wrong_sum_on(controls::ModelI<K, Divergence, Mistake>(kernel), scene);
+  const auto scheme = [&]<class Divergence>(const SomeKernel& kernel, Divergence) {
+    return wrong_sum_on(controls::ModelI<SomeKernel, Divergence, Mistake>(kernel), scene);
   };
-  return with_kernel(choice.kernel, with_local_divergence(scene, scheme));
+  return with_local_divergence(scene, scheme)(SomeKernel(choice.kernel.kernel()));
 }
 
 template <class Mistake>
 std::unique_ptr<LineScheme> model2(const SchemeChoice& choice, const Scene& scene, double mu) {
-  const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
-    return wrong_sum_on(controls::ModelII<K, Divergence, Mistake>(kernel, mu), scene);
+  const auto scheme = [&]<class Divergence>(const SomeKernel& kernel, Divergence) {
+    return wrong_sum_on(controls::ModelII<SomeKernel, Divergence, Mistake>(kernel, mu), scene);
   };
-  return with_integrable_kernel(choice.kernel, with_local_divergence(scene, scheme));
+  return with_local_divergence(scene, scheme)(integrable_one(choice.kernel));
 }
 
 template <bool viscous>
 std::unique_ptr<LineScheme> sph(const SchemeChoice& choice, const Scene& scene, double mu) {
-  const auto scheme = [&]<class K, class Divergence>(const K& kernel, Divergence) {
-    return wrong_sum_on(controls::ClassicalSph<K, Divergence>(kernel, viscous ? mu : 0.0), scene);
+  const auto scheme = [&]<class Divergence>(const SomeKernel& kernel, Divergence) {
+    return wrong_sum_on(controls::ClassicalSph<SomeKernel, Divergence>(kernel, viscous ? mu : 0.0), scene);
   };
-  return with_integrable_kernel(choice.kernel, with_local_divergence(scene, scheme));
+  return with_local_divergence(scene, scheme)(integrable_one(choice.kernel));
 }
 
 using controls::Forgotten;

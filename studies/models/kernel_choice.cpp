@@ -38,10 +38,7 @@ AnyKernel KernelChoice::kernel() const {
 }
 
 SweepKernel::Form KernelChoice::form() const {
-  if (const auto its = its_formula()) {
-    return kernel_pieces(*its)->polynomial() ? SweepKernel::Form::piecewise : SweepKernel::Form::scalar;
-  }
-  return row_of(name).form;
+  return formula != nullptr ? SweepKernel::Form::table : row_of(name).form;
 }
 
 std::string KernelChoice::label() const { return family() != nullptr ? fmt::format("{}({})", name, parameter) : name; }

@@ -49,9 +49,9 @@ struct NamedKernel {
   std::string_view name;
   std::string_view written;  ///< as a study writes it
   std::string_view meaning;
-  std::string_view profile = {}, breaks = {};          ///< its density and breaks, as in a KernelFormula; or
-  AnyKernel (*make)(double parameter) = nullptr;       ///< a type of its own, and
-  SweepKernel::Form form = SweepKernel::Form::scalar;  ///< the form of its moments in sweeps, if it is worth one
+  std::string_view profile = {}, breaks = {};         ///< its density and breaks, as in a KernelFormula; or
+  AnyKernel (*make)(double parameter) = nullptr;      ///< a type of its own, and
+  SweepKernel::Form form = SweepKernel::Form::table;  ///< of its moments in sweeps; one of its own if that is worth it
   std::optional<KernelParameter> parameter = {};
 
   /// As an example: "\"inverse\"", "{ name = \"power\", alpha = 0.5 }".

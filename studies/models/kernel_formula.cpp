@@ -200,6 +200,7 @@ class PiecesOf {
     const HundredDigits total = integrate(1, exponent, moment, made->moment_power);
     if (exponent < 1) integrate(0, exponent, mass, made->mass_power);
 
+    made->corners.assign(profile_.ends().begin() + 1, profile_.ends().end() - 1);
     made->bounds = {0.0};
     for (const Piece& piece : pieces_) {
       made->bounds.push_back(piece.end);

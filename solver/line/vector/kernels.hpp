@@ -66,118 +66,65 @@ struct CubicSplineLanes {
   }
 };
 
-/// Polynomials on pieces, one of which is the current one: the walk says when all lanes are in it.
-class PiecewiseLanes {
+/// A table of the moment that is asked for. One of its pieces is the current one: the walk says when all lanes are in
+/// it.
+class TableLanes {
  public:
-  explicit PiecewiseLanes(const SweepPieces& pieces) : pieces_(pieces) {}
+  explicit TableLanes(const SweepKernel& kernel) : kernel_(kernel), table_(kernel.moments) {}
 
   /// Ends of the current piece, in units of the horizon.
-  double begin() const { return pieces_.bounds[piece_]; }
-  double end() const { return pieces_.bounds[piece_ + 1]; }
+  double begin() const { return table_.bounds[piece_]; }
+  double end() const { return table_.bounds[piece_ + 1]; }
 
   static constexpr double moment_scale = 1.0;
   template <KernelPiece piece>
   ACSTUDY_ALWAYS_INLINE inline Lanes first_moment(Lanes z) {
-    return within<piece>(pieces_.moment, z);
+    return within<piece>(z);
   }
   template <KernelPiece piece>
   ACSTUDY_ALWAYS_INLINE inline Lanes mass(Lanes z) {
-    return within<piece>(pieces_.mass, z);
+    return within<piece>(z);
   }
 
  private:
   /// Anywhere: the piece of the nearest lane becomes the current one.
   template <KernelPiece piece>
-  ACSTUDY_ALWAYS_INLINE inline Lanes within(const double* coefficients, Lanes z) {
-    if constexpr (piece == KernelPiece::inside) return polynomial(coefficients, piece_, z);
+  ACSTUDY_ALWAYS_INLINE inline Lanes within(Lanes z) {
+    if constexpr (piece == KernelPiece::inside) return on(piece_, z);
+    const std::ptrdiff_t last = table_.pieces - 1;
     while (piece_ > 0 && !all_at_most(spread(begin()), z)) --piece_;
-    while (piece_ + 1 < pieces_.count && all_at_most(spread(end()), z)) ++piece_;
-    Lanes value = polynomial(coefficients, piece_, z);
-    for (std::ptrdiff_t i = piece_ + 1; i < pieces_.count; ++i) {
-      const Choice beyond = at_most(spread(pieces_.bounds[i]), z);
+    while (piece_ < last && all_at_most(spread(end()), z)) ++piece_;
+    Lanes value = on(piece_, z);
+    for (std::ptrdiff_t i = piece_ + 1; i <= last; ++i) {
+      const Choice beyond = at_most(spread(table_.bounds[i]), z);
       if (bits(beyond) == 0) break;
-      value = select(beyond, polynomial(coefficients, i, z), value);
+      value = select(beyond, on(i, z), value);
     }
     return value;
   }
 
-  /// Horner's rule, entered where the coefficients begin.
-  ACSTUDY_ALWAYS_INLINE inline Lanes polynomial(const double* coefficients, std::ptrdiff_t piece, Lanes z) const {
-    const double* const c = coefficients + piece * pieces_.terms;
-    const Lanes t = pieces_.direction[piece] * (z - pieces_.origin[piece]);
-    std::ptrdiff_t k = pieces_.terms - 1;
+  /// MomentTable::at() of all lanes.
+  ACSTUDY_ALWAYS_INLINE inline Lanes on(std::ptrdiff_t piece, Lanes z) const {
+    if (piece == 0 && table_.power < 0) return one_by_one(z);
+    const double* const c = table_.coefficient + piece * MomentTable::most_terms;
+    const Lanes t = z - table_.origin[piece];
+    std::ptrdiff_t k = table_.terms[piece] - 1;
     Lanes value = spread(c[k]);
-    for (; k > 12; --k) value = value * t + c[k - 1];
-    switch (k) {
-      case 12:
-        value = value * t + c[11];
-        [[fallthrough]];
-      case 11:
-        value = value * t + c[10];
-        [[fallthrough]];
-      case 10:
-        value = value * t + c[9];
-        [[fallthrough]];
-      case 9:
-        value = value * t + c[8];
-        [[fallthrough]];
-      case 8:
-        value = value * t + c[7];
-        [[fallthrough]];
-      case 7:
-        value = value * t + c[6];
-        [[fallthrough]];
-      case 6:
-        value = value * t + c[5];
-        [[fallthrough]];
-      case 5:
-        value = value * t + c[4];
-        [[fallthrough]];
-      case 4:
-        value = value * t + c[3];
-        [[fallthrough]];
-      case 3:
-        value = value * t + c[2];
-        [[fallthrough]];
-      default:
-        return (value * t + c[1]) * t + c[0];
-    }
+    for (; k > 0; --k) value = value * t + c[k - 1];
+    for (int i = 0; i < table_.power && piece == 0; ++i) value *= z;
+    return value;
   }
 
-  SweepPieces pieces_;
-  std::ptrdiff_t piece_ = 0;
-};
-
-/// Any other kernel, one particle after the other.
-///
-/// The functions are compiled with the rest of the program, for any processor.
-class ScalarLanes {
- public:
-  static constexpr double breakpoint = 1.0;
-  using MomentFunction = double (*)(const void* kernel, double z);
-
-  ScalarLanes(const void* kernel, MomentFunction moment_within, MomentFunction mass_within)
-      : kernel_(kernel), first_moment_(moment_within), mass_(mass_within) {}
-
-  static constexpr double moment_scale = 1.0;
-  template <KernelPiece>
-  Lanes first_moment(Lanes z) const {
-    return each(first_moment_, z);
-  }
-  template <KernelPiece>
-  Lanes mass(Lanes z) const {
-    return each(mass_, z);
-  }
-
- private:
-  Lanes each(MomentFunction function, Lanes z) const {
+  /// The function is compiled with the rest of the program, for any processor.
+  ACSTUDY_NEVER_INLINE Lanes one_by_one(Lanes z) const {
     Lanes result = {};
-    for (int i = 0; i < lane_count; ++i) result[i] = function(kernel_, z[i]);
+    for (int i = 0; i < lane_count; ++i) result[i] = kernel_.moment(kernel_.kernel, z[i]);
     return result;
   }
 
-  const void* kernel_;
-  MomentFunction first_moment_, mass_;
+  const SweepKernel& kernel_;
+  const MomentTable::View& table_;
+  std::ptrdiff_t piece_ = 0;
 };
 
 }  // namespace ACSTUDY_ISA

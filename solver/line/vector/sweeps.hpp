@@ -9,26 +9,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/line/vector/moment_table.hpp"
 #include "solver/rate_matrix.hpp"
 
 namespace acstudy {
 
-/// Moments within a distance z that are polynomials in t = direction (z - origin) on each of some pieces.
-struct SweepPieces {
-  std::ptrdiff_t count, terms;
-  const double* bounds;  ///< [count + 1], from 0 to 1
-  const double *origin, *direction;
-  const double *moment, *mass;  ///< [count][terms], lowest first
-};
-
 /// A kernel as the sweeps know it.
 struct SweepKernel {
-  enum class Form { inverse, cubic_spline, piecewise, scalar };
+  enum class Form { inverse, cubic_spline, table };
   Form form;
-  const void* kernel = nullptr;  ///< for `scalar`: any kernel, by its moments within a distance z
-  double (*first_moment)(const void* kernel, double z) = nullptr;
-  double (*mass)(const void* kernel, double z) = nullptr;
-  SweepPieces pieces = {};  ///< for `piecewise`
+  // for a `table`:
+  MomentTable::View moments = {};  ///< of what the sweep asks for: the first moment or the mass
+  const void* kernel = nullptr;    ///< the same by a function, where the table is none
+  double (*moment)(const void* kernel, double z) = nullptr;
 };
 
 /// A scheme that takes part in a sweep: its values and where its rates go. Both divergence forms may, and then share

@@ -108,9 +108,7 @@ std::int64_t symmetric_sweep_of(const SweepRange& range, const SymmetricSweep& s
 inline std::int64_t symmetric_sweep(const SweepRange& range, const SymmetricSweep& sweep) {
   const SweepKernel& kernel = sweep.kernel;
   if (kernel.form == SweepKernel::Form::cubic_spline) return symmetric_sweep_of(range, sweep, CubicSplineLanes{});
-  if (kernel.form == SweepKernel::Form::piecewise)
-    return symmetric_sweep_of(range, sweep, PiecewiseLanes(kernel.pieces));
-  return symmetric_sweep_of(range, sweep, ScalarLanes(kernel.kernel, kernel.first_moment, kernel.mass));
+  return symmetric_sweep_of(range, sweep, TableLanes(kernel));
 }
 
 }  // namespace ACSTUDY_ISA

@@ -104,10 +104,8 @@ inline std::int64_t upwind_sweep(const SweepRange& range, const UpwindSweep& swe
       return upwind_with(range, sweep, InverseLanes{});
     case SweepKernel::Form::cubic_spline:
       return upwind_with(range, sweep, CubicSplineLanes{});
-    case SweepKernel::Form::piecewise:
-      return upwind_with(range, sweep, PiecewiseLanes(kernel.pieces));
     default:
-      return upwind_with(range, sweep, ScalarLanes(kernel.kernel, kernel.first_moment, kernel.mass));
+      return upwind_with(range, sweep, TableLanes(kernel));
   }
 }
 

@@ -94,7 +94,7 @@ ACSTUDY_ALWAYS_INLINE inline void walk(const K& kernel, const Add& add, Sides&..
   const auto rest = [&](auto& side) ACSTUDY_ALWAYS_INLINE {
     while (side.goes_on()) add.template operator()<KernelPiece::any>(side);
   };
-  if constexpr (std::is_same_v<K, PiecewiseLanes>) {
+  if constexpr (std::is_same_v<K, TableLanes>) {
     while ((sides.goes_on() && ...)) {
       if ((sides.begins_beyond(kernel.begin()) && ...)) {
         while ((sides.ends_before(kernel.end()) && ...)) each.template operator()<KernelPiece::inside>();

@@ -20,38 +20,34 @@ ACSTUDY_VECTOR_CLONES void product(const double* a, const double* b, std::span<d
 
 struct SweepGroup::Kernel {
   AnyKernel kernel;
+  MomentTable moments;
   SweepKernel sweep;
 
-  explicit Kernel(const KernelChoice& choice) : kernel(choice.kernel()) {
+  Kernel(const KernelChoice& choice, VectorForm sums) : kernel(choice.kernel()) {
     sweep.form = choice.form();
+    if (sweep.form != SweepKernel::Form::table) return;
     std::visit(
         [&]<class K>(const K& k) {
           sweep.kernel = &k;
-          sweep.first_moment = [](const void* itself, double z) {
-            return static_cast<const K*>(itself)->first_moment(z);
-          };
-          if constexpr (std::is_base_of_v<PiecewiseKernel, K>) {
-            const KernelPieces& pieces = k.pieces();
-            sweep.pieces = {.count = std::ssize(pieces.origin),
-                            .terms = static_cast<std::ptrdiff_t>(pieces.terms),
-                            .bounds = pieces.bounds.data(),
-                            .origin = pieces.origin.data(),
-                            .direction = pieces.direction.data(),
-                            .moment = pieces.moment.data(),
-                            .mass = pieces.mass.data()};
-          }
+          sweep.moment = [](const void* itself, double z) { return static_cast<const K*>(itself)->first_moment(z); };
           if constexpr (IntegrableKernel<K>) {
-            sweep.mass = [](const void* itself, double z) { return static_cast<const K*>(itself)->mass(z); };
+            if (sums == VectorForm::symmetric) {
+              sweep.moment = [](const void* itself, double z) { return static_cast<const K*>(itself)->mass(z); };
+            }
           }
+          std::span<const double> corners = k.breaks();
+          if constexpr (std::is_base_of_v<PiecewiseKernel, K>) corners = k.corners();
+          moments = moment_table([&](double z) { return sweep.moment(&k, z); }, corners);
         },
         kernel);
+    sweep.moments = moments.view();
   }
 };
 
 SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles, bool far)
     : particles_(particles),
       far_(far),
-      kernel_(std::make_unique<Kernel>(c.scheme.kernel)),
+      kernel_(std::make_unique<Kernel>(c.scheme.kernel, c.scheme.model->vector_form)),
       model_(c.scheme.model),
       delta_(c.delta),
       mu_(c.mu),

@@ -1,9 +1,10 @@
 #include "studies/running/ensemble/member.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "solver/line/vector/clones.hpp"
+#include "solver/clones.hpp"
 
 namespace acstudy {
 
@@ -24,6 +25,29 @@ ACSTUDY_VECTOR_CLONES double apply_stage(const StageSum stage, const double* rat
   return largest + sum;
 }
 
+/// The largest |u|; NaN if one is not finite.
+ACSTUDY_VECTOR_CLONES double largest_of(const double* u, std::ptrdiff_t count) {
+  double largest = 0.0, sum = 0.0;
+#pragma omp simd reduction(max : largest) reduction(+ : sum)
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
+    largest = std::abs(u[j]) > largest ? std::abs(u[j]) : largest;
+    sum += 0.0 * u[j];
+  }
+  return largest + sum;
+}
+
+/// A later stage asks for the rate of stage i, which is solved for.
+bool asks_for_solved_rate(const Integrator& integrator, std::size_t i) {
+  return integrator.diagonal(i) != 0.0 && integrator.asks_for_rate(i, i);
+}
+
+bool asks_for_solved_rates(const Integrator& integrator) {
+  for (std::size_t i = 1; i <= integrator.stage_count(); ++i) {
+    if (asks_for_solved_rate(integrator, i)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Member::Member(const Case& its_case, std::size_t count, const Team& team)
@@ -34,13 +58,16 @@ Member::Member(const Case& its_case, std::size_t count, const Team& team)
              ZeroedVector(count + 16)},
       next(count),
       u_n(its_case.integrator->stage_count() > 1 ? count : 0),
+      right(asks_for_solved_rates(*its_case.integrator) ? count : 0),
+      no_source(right.size()),
       registers(*its_case.integrator, count),
       largest(team, 0.0) {}
 
 void Member::stage(std::size_t i, double dt, const Piece& piece) {
   const std::ptrdiff_t j = piece.begin;
   const double* const u = values.u.at(j);
-  const double *const rate = values.rate.data() + j, *const f = source->f() + j;
+  const bool solved = asks_for_solved_rate(*c.integrator, i - 1);
+  const double *const rate = values.rate.data() + j, *const f = (solved ? no_source.data() : source->f()) + j;
   if (const auto kept = registers.rate(i - 1); !kept.empty()) {
     for (std::ptrdiff_t k = 0; k < piece.size(); ++k) kept[j + k] = rate[k] + f[k];
   }
@@ -51,6 +78,22 @@ void Member::stage(std::size_t i, double dt, const Piece& piece) {
 void Member::accept(std::size_t i) {
   std::swap(values.u, next);
   if (i == 1 && u_n.size() > 0) std::swap(next, u_n);
+}
+
+void Member::add_source(std::size_t i, double scale, const Piece& piece) {
+  const auto u = piece.of(values.u.values());
+  if (asks_for_solved_rate(*c.integrator, i)) std::copy(u.begin(), u.end(), right.begin() + piece.begin);
+  const double* const f = source->f() + piece.begin;
+  for (std::size_t j = 0; j < u.size(); ++j) u[j] += scale * f[j];
+}
+
+void Member::finish_solved(std::size_t i, double scale, const Piece& piece) {
+  const auto u = piece.of(values.u.values());
+  largest[piece] = larger(largest[piece], largest_of(u.data(), piece.size()));
+  if (!asks_for_solved_rate(*c.integrator, i)) return;
+  double* const rate = values.rate.data() + piece.begin;
+  const double* const before = right.data() + piece.begin;
+  for (std::size_t j = 0; j < u.size(); ++j) rate[j] = (u[j] - before[j]) / scale;
 }
 
 }  // namespace acstudy

@@ -25,6 +25,11 @@ struct Member {
   void stage(std::size_t i, double dt, const Piece& piece);
   /// Makes what stage i has given the state; after all pieces.
   void accept(std::size_t i);
+  // An implicit stage i goes on from there. At the particles of a piece: the source comes into the state, before it is
+  // solved for, with `scale` as its step;
+  void add_source(std::size_t i, double scale, const Piece& piece);
+  /// and then `largest`, and the rate of the stage, if a later one asks for it.
+  void finish_solved(std::size_t i, double scale, const Piece& piece);
   /// Puts back the state at the start of a step of which `stages_done` stages are done.
   void take_back(std::size_t stages_done) {
     if (stages_done > 0) std::swap(values.u, before());
@@ -33,8 +38,10 @@ struct Member {
   const Case& c;
   CaseResult result;
   SweptValues values;
-  PeriodicArray next;  ///< what becomes of u
-  PeriodicArray u_n;   ///< at the start of the step, where there are several stages
+  PeriodicArray next;         ///< what becomes of u
+  PeriodicArray u_n;          ///< at the start of the step, where there are several stages
+  std::vector<double> right;  ///< of an implicit stage, where its rate is asked for
+  ZeroedVector no_source;     ///< for rates that have it already
   StageRegisters registers;
   SweepGroup* group = nullptr;
   ParticleSource* source = nullptr;

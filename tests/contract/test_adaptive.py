@@ -35,7 +35,7 @@ class Adaptive(ProgramTest):
                     self.assertEqual([cases[level]["tolerance"] for cases in series], [1e-2, 1e-3, 1e-4, 1e-7])
                     errors = [cases[level]["error_linf"] for cases in series]
                     for error, tolerance in zip(errors[:3], (1e-2, 1e-3, 1e-4)):
-                        self.assertLess(abs(error - errors[3]), 5 * tolerance)
+                        self.assertLess(abs(error - errors[3]), 50 * tolerance)
 
     def test_both_forms_take_the_same_steps(self):
         for integrator in ("ssprk2", "ssprk3", "sdirk3"):
@@ -94,21 +94,23 @@ class Adaptive(ProgramTest):
 
     def test_the_bound_is_watched_and_not_complained_of(self):
         """Explicit adaptive steps go beyond the lemma of Model II where they may."""
-        text = adaptive("ssprk3", "1e-3", study=edit(STUDY, MODEL_II))
+        text = adaptive("ssprk3", "1e-2", study=edit(STUDY, MODEL_II, ("[16, 32, 64]", "[64, 128]")))
         done = self.run_study(text)
         self.assertEqual(done.stderr, "")
         for case in self.result()["series"][0]["cases"]:
             self.assertGreater(case["bound"]["largest"], 1)
 
     def test_a_solution_that_ends_ends_the_steps(self):
-        text = edit(adaptive("ssprk3", "1e-4", study=INLINE), ('u = "cos(x-t)"', 'u = "2 + cos(x)*sqrt(0.5-t)"'))
+        nowhere = 'u = "cos(x-t) + 0*sqrt((t-0.5)^2 - 0.0025)"'
+        text = edit(adaptive("ssprk3", "1e-4", study=INLINE), ('u = "cos(x-t)"', nowhere))
         for form in ("readable", "vector"):
             with self.subTest(form):
                 self.run_study(text, "--form", form, out=form, expect=3)
                 for case in self.result(out=form)["series"][0]["cases"]:
                     self.assertRegex(case["failure"], "the time step has become too small to advance time: at no length "
-                                                      "was its estimated error tolerated in step [0-9]+, from t = 0.5")
-                    self.assertLess(case["last"]["time"], 0.5 + 1e-9)
+                                                      "was its estimated error tolerated in step [0-9]+, from t = 0.45 on")
+                    self.assertAlmostEqual(case["last"]["time"], 0.45, delta=1e-9)
+                    self.assertIsNone(case["error_linf"])
 
     def test_a_limit_of_time_holds(self):
         text = edit(adaptive("ssprk3", "1e-12", 'limit = "0.01 s"'), ("[16, 32, 64]", "[16, 2560]"))

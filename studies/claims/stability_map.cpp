@@ -309,7 +309,8 @@ Point limit_at(const Subject& subject, const Integrator& integrator, const Const
     const double limit = last_stable(stable, highest);
     const double promised = frozen.rows > 0.0 ? std::min(monotonicity_radius(integrator) * frozen.rows, pole) : 0.0;
     const double least = std::min(promised / frozen.lemma, highest);
-    const double lower = least * (1.0 - 1e-6), upper = exact ? least * (1.0 + 1e-6) : unbounded;
+    const bool any = monotonicity_radius(integrator) > 0.0;
+    const double lower = any ? least * (1.0 - 1e-6) : -unbounded, upper = exact ? least * (1.0 + 1e-6) : unbounded;
     const bool within = lower <= limit && limit <= upper,
                was = worst.lower <= worst.value && worst.value <= worst.upper;
     if (std::isnan(worst.value) || (was && (!within || limit < worst.value))) {

@@ -23,7 +23,9 @@ void TridiagonalFactors::factorize(const PeriodicBand& A) {
   double inverse_before = 0.0, upper_before = 0.0, scaled_below_before = 0.0;
   for (std::ptrdiff_t i = 0; i < last; ++i) {
     const double a = i > 0 ? before(i) : 0.0, b = i + 1 < last ? after(i) : 0.0;
-    const double inverse = 1.0 / (A.diagonal(i) - a * upper_before * inverse_before);
+    // Where two neighbors do not both see each other, as in Model I, a pivot need not wait for the one before.
+    const double product = a * upper_before;
+    const double inverse = 1.0 / (product == 0.0 ? A.diagonal(i) : A.diagonal(i) - product * inverse_before);
     const double l = a * inverse_before;
     if (i > 0) right = kept(-l * right);
     if (i > 0) below = kept(-scaled_below_before * upper_before);

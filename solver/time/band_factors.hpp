@@ -62,6 +62,7 @@ class BorderedFactors {
   std::vector<double> inverse_, right_;
   std::vector<double> below_;  ///< the border's rows, column after column
   std::vector<char> has_right_, has_below_;
+  bool has_clean_ends_ = false;                          ///< the entries beyond the ends of rows are zero
   std::ptrdiff_t first_columns_ = 0, last_columns_ = 0;  ///< where the border's rows have entries at either end
   std::vector<double> corner_;                           ///< border_ rows of stride_
   std::vector<std::ptrdiff_t> pivots_;

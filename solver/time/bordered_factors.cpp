@@ -27,25 +27,23 @@ inline void subtract(double* __restrict a, double factor, const double* __restri
 }  // namespace
 
 void BorderedFactors::cut(const PeriodicBand& A) {
-  // Before row s the cut is reached across by rows after it to the left, and by rows before it to the right.
-  const std::ptrdiff_t n = size_;
-  std::vector<std::ptrdiff_t> across(static_cast<std::size_t>(n), 1);
-  std::ptrdiff_t lowest = 2 * n;
-  for (std::ptrdiff_t i = 2 * n - 1; i >= 0; --i) {
-    lowest = std::min(lowest, i - A.left(i % n));
-    if (i < n) across[i] = std::max(across[i], i - lowest);
+  // Before the row that reaches least across, to the left, or is reached least by the one before it.
+  std::ptrdiff_t least = size_;
+  for (std::ptrdiff_t j = 0; j < size_; ++j) {
+    const std::ptrdiff_t across = std::max(A.left(j), A.right(j > 0 ? j - 1 : size_ - 1));
+    if (across >= least) continue;
+    least = across;
+    start_ = j;
   }
-  std::ptrdiff_t done = 0;
-  for (std::ptrdiff_t i = -n; i < n; ++i) {
-    const std::ptrdiff_t end = std::min(i + A.right(i < 0 ? i + n : i), n - 1);
-    for (std::ptrdiff_t s = std::max(done, i + 1); s <= end; ++s) across[s] = std::max(across[s], s - i);
-    done = std::max(done, end + 1);
+  // Others may reach further: rows after the cut to the left, and rows before it to the right.
+  border_ = 1;
+  for (std::ptrdiff_t k = 0; k < A.widest(); ++k) {
+    const std::ptrdiff_t before = start_ - 1 - k;
+    border_ = std::max(border_, A.left(row_of(k)) - k);
+    if (A.right(before < 0 ? before + size_ : before) > k) border_ = std::max(border_, k + 1);
   }
-  const auto narrowest = std::min_element(across.begin(), across.end());
-  start_ = narrowest - across.begin();
-  border_ = *narrowest;
   stride_ = whole(border_);
-  inner_ = n - border_;
+  inner_ = size_ - border_;
 }
 
 void BorderedFactors::lay_out(const PeriodicBand& A) {
@@ -69,9 +67,8 @@ void BorderedFactors::lay_out(const PeriodicBand& A) {
     origin_above_[i] = begin_above - first_of_unit(i + 1);
     begin_above = std::max(origin_above_[i] + end, begin_above);
   }
-  // What is beyond the ends of a row stays zero.
-  entry_.assign(static_cast<std::size_t>(begin), 0.0);
-  factor_.resize(static_cast<std::size_t>(begin));
+  for (auto* entries : {&entry_, &factor_}) entries->resize(static_cast<std::size_t>(begin));
+  has_clean_ends_ = false;
   above_.resize(static_cast<std::size_t>(begin_above));
   const auto room = static_cast<std::size_t>(stride_);
   for (auto* columns : {&right_, &below_}) columns->resize(inner * room);
@@ -84,9 +81,12 @@ void BorderedFactors::fill_row(const PeriodicBand& A, std::ptrdiff_t i) {
   const std::ptrdiff_t j = row_of(i), left = A.left(j), last = std::min(A.right(j), inner_ - 1 - i);
   double* const row = entry_.data() + origin_[i] + i;
   const std::ptrdiff_t first = lower_[i] - i;
-  for (std::ptrdiff_t k = first; k < 0; ++k) row[k] = A.beside(j, k);
+  for (std::ptrdiff_t k = first; k <= last; ++k) row[k] = A.beside(j, k);
   row[0] = A.diagonal(j);
-  for (std::ptrdiff_t k = 1; k <= last; ++k) row[k] = A.beside(j, k);
+  if (!has_clean_ends_) {
+    std::fill(row + first_of_unit(lower_[i]) - i, row + first, 0.0);
+    std::fill(row + upper_[i] - i + 1, row + whole(upper_[i] + 1) - i, 0.0);
+  }
   for (std::ptrdiff_t k = last + 1; k <= upper_[i] - i; ++k) row[k] = 0.0;
   // Before the first column, and after the last one, stand those of the border.
   double* const right = right_.data() + i * stride_;
@@ -152,30 +152,34 @@ void BorderedFactors::eliminate(const PeriodicBand& A) {
     for (std::ptrdiff_t i = begin; i < end; ++i) fill_row(A, i);
     eliminate_rows(rows, begin, end);
   }
-  if (!all_finite(inverse_)) {
-    shape_ = 0;  // what is not finite may have spread to where zeros have to be
-    refuse_singular();
-  }
+  // What is beyond the ends of a row stays zero, unless something that is not finite has spread.
+  has_clean_ends_ = all_finite(inverse_);
+  if (!has_clean_ends_) refuse_singular();
 }
 
 void BorderedFactors::fill_border(const PeriodicBand& A) {
-  std::fill(below_.begin(), below_.end(), 0.0);
   std::fill(corner_.begin(), corner_.end(), 0.0);
   std::fill(has_below_.begin(), has_below_.end(), 0);
   first_columns_ = -1;
   last_columns_ = inner_;
   for (std::ptrdiff_t q = 0; q < border_; ++q) {
     const std::ptrdiff_t j = row_of(inner_ + q);
+    first_columns_ = std::max(first_columns_, q + A.right(j) - border_);
+    last_columns_ = std::min(last_columns_, inner_ + q - A.left(j));
+  }
+  const auto at_column = [&](std::ptrdiff_t column) { return below_.begin() + column * stride_; };
+  std::fill(below_.begin(), at_column(first_columns_ + 1), 0.0);
+  std::fill(at_column(last_columns_), below_.end(), 0.0);
+  for (std::ptrdiff_t q = 0; q < border_; ++q) {
+    const std::ptrdiff_t j = row_of(inner_ + q);
     for (std::ptrdiff_t k = -A.left(j); k <= A.right(j); ++k) {
       const std::ptrdiff_t column = inner_ + q + k;
       if (column < inner_) {
         below_[column * stride_ + q] = A.beside(j, k);
-        last_columns_ = std::min(last_columns_, column);
       } else if (column < size_) {
         corner_[q * stride_ + column - inner_] = A.at(j, k);
       } else {
         below_[(column - size_) * stride_ + q] = A.beside(j, k);
-        first_columns_ = std::max(first_columns_, column - size_);
       }
     }
   }
@@ -189,7 +193,9 @@ void BorderedFactors::eliminate_border() {
     for (std::ptrdiff_t q = 0; q < border_; ++q) below[q] *= inverse_[k];
     if (std::all_of(below, below + border_, [](double l) { return std::abs(l) <= negligible; })) continue;
     has_below_[k] = 1;
-    touched = std::max(touched, upper_[k]);
+    for (; touched < upper_[k]; ++touched) {
+      if (touched + 1 < last_columns_) std::fill_n(below_.begin() + (touched + 1) * stride_, stride_, 0.0);
+    }
     const double* const above = above_.data() + origin_above_[k];
     for (std::ptrdiff_t c = k + 1; c <= upper_[k]; ++c) {
       subtract(below_.data() + c * stride_, above[c], below, 0, stride_);

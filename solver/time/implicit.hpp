@@ -20,7 +20,8 @@ class ImplicitSolver {
   /// How systems are solved; tests compare the others with the last.
   enum class Method { automatic, pivoted, sparse };
 
-  explicit ImplicitSolver(Method method = Method::automatic);
+  ImplicitSolver() : ImplicitSolver(Method::automatic) {}
+  explicit ImplicitSolver(Method method);
   ~ImplicitSolver();
   ImplicitSolver(ImplicitSolver&&) noexcept;
 

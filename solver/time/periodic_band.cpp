@@ -1,24 +1,26 @@
 #include "solver/time/periodic_band.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
 namespace acstudy {
 
-void PeriodicBand::start(std::ptrdiff_t count) {
+PeriodicBand::Seen PeriodicBand::start(std::ptrdiff_t count, double scale) {
   const auto n = static_cast<std::size_t>(count);
-  changed_ = left_.size() != n;
+  const bool changed = left_.size() != n;
   for (auto* offsets : {&left_, &right_, &center_}) offsets->resize(n);
   diagonal_.resize(n);
-  row_dominant_ = true;
-  finite_ = 0.0;
-  widest_ = 0;
+  minus_scale_ = -scale;
+  return {.changed = changed};
 }
 
-bool PeriodicBand::close() {
-  if (std::isnan(finite_)) throw std::domain_error("the matrix of the implicit step is not finite");
-  if (changed_) ++shape_;
+bool PeriodicBand::close(const Seen& seen) {
+  if (std::isnan(seen.finite)) throw std::domain_error("the matrix of the implicit step is not finite");
+  if (seen.changed) ++shape_;
+  row_dominant_ = seen.dominant;
+  widest_ = seen.widest;
   return size() >= 3 && 2 * widest_ < size();
 }
 
@@ -28,9 +30,8 @@ bool PeriodicBand::assemble(const RateMatrix& R, double scale) {
     const std::ptrdiff_t offset = R.column[entry] - row;
     return 2 * offset > n ? offset - n : 2 * offset < -n ? offset + n : offset;
   };
-  start(n);
+  Seen seen = start(n, scale);
   stride_ = 1;
-  minus_scale_ = -scale;
   std::ptrdiff_t begin = 0;
   for (std::ptrdiff_t j = 0; j < n; ++j) {
     std::ptrdiff_t first = 0, last = 0;
@@ -46,24 +47,22 @@ bool PeriodicBand::assemble(const RateMatrix& R, double scale) {
     for (std::ptrdiff_t e = R.begin[j]; e < R.begin[j + 1]; ++e) row[offset_of(j, e)] += R.value[e];
     double sizes = 0.0;
     for (std::ptrdiff_t k = first; k <= last; ++k) sizes += k == 0 ? 0.0 : std::abs(row[k]);
-    set_row(j, -first, last, 1.0 - scale * row[0], sizes);
+    set_row(seen, j, -first, last, 1.0 - scale * row[0], sizes);
     begin = end;
   }
   values_ = own_values_.data();
-  return close();
+  return close(seen);
 }
 
 bool PeriodicBand::assemble(const BandedMatrix& R, std::span<const double> own, double scale) {
   const std::ptrdiff_t n = std::ssize(own), lanes = R.lanes;
-  start(n);
+  Seen seen = start(n, scale);
   values_ = R.value.data();
   stride_ = lanes;
-  minus_scale_ = -scale;
-  std::vector<double>& sizes = own_values_;
-  sizes.resize(static_cast<std::size_t>(lanes));
+  std::array<double, 8> sizes;  // no instruction set has more lanes
   for (std::ptrdiff_t j = 0; j < n; j += lanes) {
     const BandedMatrix::Block& block = R.blocks[j / lanes];
-    std::fill(sizes.begin(), sizes.end(), 0.0);
+    sizes.fill(0.0);
     for (std::ptrdiff_t k = 0; k < block.width; ++k) {
       const double* const diagonal = values_ + block.begin + k * lanes;
       for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) sizes[lane] += std::abs(diagonal[lane]);
@@ -75,10 +74,10 @@ bool PeriodicBand::assemble(const BandedMatrix& R, std::span<const double> own, 
       while (left > 0 && center[-left * lanes] == 0.0) --left;
       while (right > 0 && center[right * lanes] == 0.0) --right;
       center_[j + lane] = center - values_;
-      set_row(j + lane, left, right, 1.0 - scale * own[j + lane], sizes[lane]);
+      set_row(seen, j + lane, left, right, 1.0 - scale * own[j + lane], sizes[lane]);
     }
   }
-  return close();
+  return close(seen);
 }
 
 bool PeriodicBand::column_dominant() const {

@@ -3,6 +3,7 @@
 /// @file
 /// The matrix of an implicit step on a periodic line, as the band with corners that it is.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,7 +21,7 @@ class PeriodicBand {
   /// @throws std::domain_error if an entry is not finite
   bool assemble(const RateMatrix& R, double scale);
   /// The same for rows whose diagonal entries are given beside them.
-  /// @param R    zero on the diagonal; it is read as long as this is
+  /// @param R    zero on the diagonal, of at most eight lanes; it is read as long as this is
   /// @param own  shape [N]
   bool assemble(const BandedMatrix& R, std::span<const double> own, double scale);
 
@@ -42,20 +43,25 @@ class PeriodicBand {
   bool dominant() const { return row_dominant_ || column_dominant(); }
 
  private:
-  void start(std::ptrdiff_t count);
-  /// Takes note of row j, whose entries beside the diagonal have these sizes in all, but for the scale.
-  void set_row(std::ptrdiff_t j, std::ptrdiff_t left, std::ptrdiff_t right, double diagonal, double sizes) {
-    row_dominant_ &= diagonal > -minus_scale_ * sizes;
-    finite_ += 0.0 * (diagonal + sizes);
-    changed_ |= left_[j] != left || right_[j] != right;
+  /// What has been seen of the rows.
+  struct Seen {
+    bool changed, dominant = true;
+    double finite = 0.0;  ///< NaN if something is not
+    std::ptrdiff_t widest = 0;
+  };
+  Seen start(std::ptrdiff_t count, double scale);
+  /// Takes row j, whose entries beside the diagonal have these sizes in all, but for the scale.
+  void set_row(Seen& seen, std::ptrdiff_t j, std::ptrdiff_t left, std::ptrdiff_t right, double diagonal, double sizes) {
+    seen.dominant &= diagonal > -minus_scale_ * sizes;
+    seen.finite += 0.0 * (diagonal + sizes);
+    seen.changed |= left_[j] != left || right_[j] != right;
+    seen.widest = std::max({seen.widest, left, right});
     left_[j] = left;
     right_[j] = right;
     diagonal_[j] = diagonal;
-    widest_ = left > widest_ ? left : widest_;
-    widest_ = right > widest_ ? right : widest_;
   }
   /// @return what assemble() does
-  bool close();
+  bool close(const Seen& seen);
   bool column_dominant() const;
 
   std::vector<std::ptrdiff_t> left_, right_;
@@ -65,10 +71,9 @@ class PeriodicBand {
   std::vector<double> own_values_;  ///< where these are not read where they are
   std::ptrdiff_t stride_ = 1;
   double minus_scale_ = 0.0;
-  double finite_ = 0.0;  ///< NaN if something is not
   std::ptrdiff_t widest_ = 0;
   std::int64_t shape_ = 0;
-  bool changed_ = false, row_dominant_ = false;
+  bool row_dominant_ = false;
 };
 
 }  // namespace acstudy

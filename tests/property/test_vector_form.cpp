@@ -114,7 +114,8 @@ std::vector<double> swept_solution(const Case& c, const std::vector<double>& x, 
                             team);
   particles.move(0.0);
   SweepGroup group(c, particles, false);
-  SweptValues values{PeriodicArray(x.size()), {}, {}}, of_twin{PeriodicArray(x.size()), {}, {}};
+  SweptValues values{PeriodicArray(x.size()), PeriodicArray(), {}},
+      of_twin{PeriodicArray(x.size()), PeriodicArray(), {}};
   std::copy(u.begin(), u.end(), values.u.values().begin());
   group.add(c, values);
   Case twin = c;

@@ -20,7 +20,7 @@ struct SweptValues {
   PeriodicArray u;
   PeriodicArray flux;  ///< c_hat u, of Model I on moving particles
   ZeroedVector rate;   ///< [N] and the rest of a vector
-  ImplicitSolver solver = ImplicitSolver();
+  ImplicitSolver solver = {};
   double factorized_for = 0.0;  ///< the scale, where particles stand still; 0: for none
   std::string failure = {};     ///< of the last solve()
 };

@@ -12,7 +12,7 @@ setup   = @scripts/setup.sh
 stage   = scripts/stage.sh
 
 # One build folder for all targets: the tests are added to it, and stay, once they have been asked for.
-configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release -DACSTUDY_FOLDERS=ON $(CMAKE_ARGS)
+configure = cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release -DACSTUDY_FOLDERS=ON -DACSTUDY_OWN_PROCESSOR=ON $(CMAKE_ARGS)
 # its own number of jobs, not that of the make which calls it
 compile   = MAKEFLAGS=--no-print-directory cmake --build "$(BUILD)" -j $(JOBS)
 

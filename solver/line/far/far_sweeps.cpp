@@ -12,10 +12,12 @@ namespace acstudy::far {
 namespace baseline {
 extern const FarSweeps table;
 }
-#ifdef ACSTUDY_X86_LEVELS
+#ifdef ACSTUDY_X86_64_V3
 namespace v3 {
 extern const FarSweeps table;
 }
+#endif
+#ifdef ACSTUDY_X86_64_V4
 namespace v4 {
 extern const FarSweeps table;
 }
@@ -24,10 +26,11 @@ extern const FarSweeps table;
 const FarSweeps& far_sweeps() {
   static const FarSweeps& chosen = []() -> const FarSweeps& {
     const std::string name = sweeps().name;
-#ifdef ACSTUDY_X86_LEVELS
-    for (const FarSweeps* table : {&v4::table, &v3::table}) {
-      if (table->name == name) return *table;
-    }
+#ifdef ACSTUDY_X86_64_V4
+    if (v4::table.name == name) return v4::table;
+#endif
+#ifdef ACSTUDY_X86_64_V3
+    if (v3::table.name == name) return v3::table;
 #endif
     if (baseline::table.name != name) throw std::logic_error("no far sweeps for " + name);
     return baseline::table;

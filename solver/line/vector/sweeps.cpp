@@ -5,15 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "solver/line/vector/processor.hpp"
+
 namespace acstudy {
 
 namespace baseline {
 extern const Sweeps table;
 }
-#ifdef ACSTUDY_X86_LEVELS
+#ifdef ACSTUDY_X86_64_V3
 namespace v3 {
 extern const Sweeps table;
 }
+#endif
+#ifdef ACSTUDY_X86_64_V4
 namespace v4 {
 extern const Sweeps table;
 }
@@ -24,13 +28,11 @@ namespace {
 /// Widest first.
 std::vector<const Sweeps*> available() {
   std::vector<const Sweeps*> all;
-#ifdef ACSTUDY_X86_LEVELS
-  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  if (v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd")) {
-    all.push_back(&v4::table);
-  }
-  if (v3) all.push_back(&v3::table);
+#ifdef ACSTUDY_X86_64_V4
+  if (has_x86_64_v4()) all.push_back(&v4::table);
+#endif
+#ifdef ACSTUDY_X86_64_V3
+  if (has_x86_64_v3()) all.push_back(&v3::table);
 #endif
   all.push_back(&baseline::table);
   return all;
@@ -45,7 +47,7 @@ const Sweeps& choose() {
     if (each->name == std::string(wanted)) return *each;
     names += (names.empty() ? "" : ", ") + std::string(each->name);
   }
-  throw std::runtime_error("ACSTUDY_VECTOR=" + std::string(wanted) + ": this machine has " + names);
+  throw std::runtime_error("ACSTUDY_VECTOR=" + std::string(wanted) + ": this program has, for this machine, " + names);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 from matplotlib.axes import Axes
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
+from matplotlib.spines import Spine
 from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FixedFormatter, FixedLocator
 from matplotlib.transforms import IdentityTransform, ScaledTranslation
@@ -28,6 +29,9 @@ class Panel(Axes):
             axis.reset_ticks = _nothing     # spines call it when they are placed
         for side, spine in self.spines.items():     # as ticks would do
             spine.set_transform(self._along(side in ("bottom", "top")))
+
+    def _gen_axes_spines(self, *_, **__):
+        return {side: _Edge.linear_spine(self, side) for side in ("left", "right", "bottom", "top")}
 
     def grid(self, *_, **__):
         """Nothing: a grid would make matplotlib's ticks."""
@@ -109,6 +113,16 @@ class Panel(Axes):
                           xytext=(0, offset) if across else (offset, 0), textcoords="offset points", ha="center",
                           va="top" if across else "bottom", rotation=0 if across else 90, rotation_mode="anchor",
                           fontproperties=axis.label.get_fontproperties(), annotation_clip=False, clip_on=False)
+
+
+class _Edge(Spine):
+    """An edge of a panel that leaves clearing its axis to the panel: matplotlib's edges do it eight times more."""
+
+    def register_axis(self, axis):
+        self.axis = axis
+
+    def clear(self):
+        self._position = None
 
 
 def _nothing():

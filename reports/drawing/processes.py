@@ -61,6 +61,7 @@ def _start(tasks, work):
 
 
 def _work(connection, tasks, work):
+    gc.freeze()     # what is there already stays, and need not be searched
     with suppress(EOFError, ConnectionError):   # the first process is gone
         while True:
             i = connection.recv()

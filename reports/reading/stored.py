@@ -44,13 +44,13 @@ class Stored:
                 columns[field.name] = self._column(field, next(iter(columns.values()), None))
         for name, convert, default, optional in attributes:
             if name not in given:
-                values[name] = convert(self.attribute(name, default, optional, _MOSTLY[convert]))
+                values[name] = convert(self.attribute(name, default, optional, _NUMBERS.get(convert)))
         return kind(**values, **columns)
 
-    def attribute(self, name, default=None, optional=False, mostly=str):
-        """The value of an attribute. `mostly`: str, int or float, for one of that kind is read fastest."""
+    def attribute(self, name, default=None, optional=False, number=None):
+        """The value of an attribute. `number`: int or float, for one that is known to be one is read faster."""
         try:
-            value = _attribute(self.group, name.encode(), mostly)
+            value = _attribute(self.group, name.encode(), number)
         except KeyError:
             value = default
         if value is None and not optional:
@@ -90,16 +90,16 @@ def _stored(kind):
              for field in fields(kind) if field.type in _AS])
 
 
-def _attribute(group, name, mostly=None):
-    """The value of an attribute, by the lower interface of h5py: in a quarter of the time. `mostly`: see attribute().
+def _attribute(group, name, number=None):
+    """The value of an attribute, by the lower interface of h5py: in a quarter of the time. `number`: see attribute().
 
     Opened by name: HDF5 sorts all of them anew for each that is opened by its number. KeyError if there is none.
     """
     attribute = h5a.open(group.id, name)
-    if mostly:
+    if number:
         # To ask for the type takes as long as to read.
-        with suppress(OSError, RuntimeError, TypeError, ValueError):    # it is of another
-            return _scalar(attribute, *_usual(mostly, mostly is str and attribute.get_storage_size()))
+        with suppress(OSError, RuntimeError, TypeError, ValueError):    # it is no number
+            return _scalar(attribute, *_usual(number))
     stored = attribute.get_type()
     dtype, kind = _in_memory(stored)
     if dtype is None or attribute.get_storage_size() != stored.get_size():
@@ -114,15 +114,10 @@ def _scalar(attribute, dtype, kind):
 
 
 @lru_cache(maxsize=None)
-def _usual(kind, size):
-    """(dtype, HDF5's type) of an attribute as acstudy writes those of this kind; size: of a text, in bytes."""
-    if kind is not str:
-        dtype = np.dtype(kind)
-        return dtype, h5t.py_create(dtype)
-    text = h5t.C_S1.copy()
-    text.set_size(size)
-    text.set_cset(h5t.CSET_UTF8)
-    return np.dtype(f"S{size}"), text
+def _usual(number):
+    """(dtype, HDF5's type) of int or float in memory."""
+    dtype = np.dtype(number)
+    return dtype, h5t.py_create(dtype)
 
 
 def _in_memory(stored):
@@ -155,5 +150,5 @@ def _number_or_none(value):
 
 
 _AS = {"str": str, "int": int, "float": float, "bool": bool, "float | None": _number_or_none}
-_MOSTLY = {str: str, int: int, bool: int, float: float, _number_or_none: float}
+_NUMBERS = {int: int, bool: int, float: float, _number_or_none: float}
 _OPTIONAL = ("float | None",)

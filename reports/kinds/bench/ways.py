@@ -77,9 +77,11 @@ def _way(name, curves):
 
 
 def reach(way, target):
-    """Seconds to an error of `target`; NaN if no run has it."""
-    found = work_precision.reach(way.efficient(), target)
-    return found if found.kind in ("between", "coarsest") else work_precision.Reach("not", np.nan)
+    """Seconds to an error of `target`; nothing is extrapolated, for N may be the same in all runs."""
+    efficient = way.efficient()
+    if not np.any(efficient.error <= target):
+        return work_precision.Reach("not", np.nan)
+    return work_precision.reach(efficient, target)
 
 
 def tables(benches, best="**{}**", join=" / ".join):

@@ -3,6 +3,7 @@
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
+import gc
 
 from drawing import processes
 from kinds import registry, run_times
@@ -21,7 +22,9 @@ class Drawn:
 def read(files, kept):
     """The studies in result files. `kept`: a reading.kept.Kept."""
     made_of = [("study", kept.of_file(file)) if file.is_file() else () for file in files]
-    found = made([(results.read_study, file) for file in files], made_of, kept, processes.results)
+    with processes.no_search_for_garbage():
+        found = made([(results.read_study, file) for file in files], made_of, kept, processes.results)
+    gc.freeze()     # they stay to the end
     return [replace(study, file=file) for study, file in zip(found, files)]
 
 

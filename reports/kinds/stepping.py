@@ -12,7 +12,7 @@ from drawing.timed import error_over_seconds
 from kinds.kind import Kind
 from reading import names
 from writing import figures, markup, tables
-from writing.series import cases_fold, labeled, series_table
+from writing.series import cases_fold, labeled, series_table, steps_taken
 
 COLUMNS = ("scheme", "path", "~steps", "came to be", "as expected", Markup("#<var>N</var>"), "#max-norm error",
            "#run time (s)", "#steps taken", "#longest / bound", "~beyond it from", "~given up at")
@@ -139,7 +139,7 @@ def _row(result, label):
             cases.last_step[i], cases.N[i], cases.last_time[i], cases.last_place[i])
     return tables.Row((label, series.path, series.stepping, _came_to_be(result), markup.expected(result),
                        f"{cases.N[-1]}", markup.error(cases.error_linf[-1]), markup.seconds(cases.seconds[-1]),
-                       markup.count(cases.steps[-1]), bound, where, given_up), not result.as_expected)
+                       steps_taken(cases, -1), bound, where, given_up), not result.as_expected)
 
 
 def _came_to_be(result):

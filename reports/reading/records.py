@@ -64,6 +64,8 @@ class Cases:
     bound_first_place: Column = None   # left end of the smallest gap then
     error_l1: Column = None            # other norms of the error at T
     error_l2: Column = None
+    tolerance: Column = None           # of adaptive steps; 0, NaN: they are not
+    rejected: Column = None            # adaptive steps that were taken back, besides `steps`
     last_step: Column = None           # of a run that was given up: its last finite state
     last_time: Column = None           # NaN: the run went to its end
     last_place: Column = None          # position of the particle that gave it away

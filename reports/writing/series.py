@@ -59,7 +59,7 @@ def how_run(series):
         details = [f"{series.source} source", f"steps: {series.step_text}"]
     else:
         details = [f"{series.scheme.kernel} kernel", f"{series.source} source", series.integrator,
-                   f"step at most {series.step_text}"]
+                   f"step {'' if series.step_text.startswith('adaptive') else 'at most '}{series.step_text}"]
     if series.start != "uniform":
         details.append(f"start {series.start}")
     if series.scheme.alpha is not None:
@@ -67,6 +67,14 @@ def how_run(series):
     if series.scheme.mu is not None:
         details.append(f"μ = {series.scheme.mu:.6g}")
     return ", ".join(details)
+
+
+def steps_taken(cases, i):
+    """How many steps a case took, with those that were rejected where steps are adaptive."""
+    if not cases.tolerance[i] > 0:
+        return markup.count(cases.steps[i])
+    return Markup("{} {}").format(markup.count(cases.steps[i]),
+                                  markup.note(f"+ {markup.count(int(cases.rejected[i]))} rejected"))
 
 
 def cases_fold(study):
@@ -86,7 +94,7 @@ def _cases(result, label):
                                        markup.note(f"{spread}, {cases.repeats[i]} runs")
                                        if cases.repeats[i] > 1 and np.isfinite(cases.seconds[i]) else "")
         yield Row((f"{label}; {path_of(result)}", f"{cases.N[i]}", markup.value(cases.h[i]), markup.value(cases.delta[i]),
-                   markup.value(cases.dt[i]), markup.count(cases.steps[i]), markup.error(cases.error_linf[i]),
+                   markup.value(cases.dt[i]), steps_taken(cases, i), markup.error(cases.error_linf[i]),
                    names.order(cases.pairwise[i - 1]) if i else "", timed,
                    *map(markup.count, (cases.work_pairs[i], cases.work_weight_builds[i],
                                        cases.work_quadrature_points[i]))), not math.isfinite(cases.error_linf[i])

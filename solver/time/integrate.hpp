@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/time/adaptive.hpp"
 #include "solver/time/integrators.hpp"
 #include "solver/time/steps.hpp"
 
@@ -109,24 +110,28 @@ struct ExplicitSystem {
 /// U - scale rate(t, U) = u.
 class Stepper {
  public:
-  /// @param count  entries of the state
-  Stepper(const Integrator& integrator, std::size_t count)
+  /// @param count      entries of the state
+  /// @param estimates  the error of every step is estimated  @pre integrator.estimates()
+  Stepper(const Integrator& integrator, std::size_t count, bool estimates = false)
       : integrator_(integrator),
         registers_(integrator, count),
         u_n_(integrator.stage_count() > 1 ? count : 0),
         du_(count),
-        right_(integrator.implicit() ? count : 0) {}
+        right_(integrator.implicit() ? count : 0),
+        error_(estimates ? count : 0) {}
 
   /// @throws std::logic_error if the integrator is implicit and the system cannot be solved
   template <class State, class System>
   void operator()(const TimeStep& step, State& u, System& system) {
     const std::span<double> values = entries_of(u);
     std::copy_n(values.begin(), u_n_.size(), u_n_.begin());
+    std::fill(error_.begin(), error_.end(), 0.0);
     for (std::size_t i = 1; i <= integrator_.stage_count(); ++i) {
       const std::size_t newest = i - 1;
       if (integrator_.diagonal(newest) == 0.0 && integrator_.asks_for_rate(newest, newest)) {
         system.rate(step.at(integrator_.c(newest)), u, std::span<double>(du_));
       }
+      estimate(newest, step.dt);
       const auto kept = registers_.rate(newest);
       std::copy_n(du_.begin(), kept.size(), kept.begin());
       const double* const u_n = u_n_.empty() ? values.data() : u_n_.data();
@@ -138,9 +143,24 @@ class Stepper {
       }
       if (integrator_.diagonal(i) != 0.0) solve(i, step, u, system);
     }
+    estimate(integrator_.stage_count(), step.dt);
   }
 
+  /// The estimated error of the step that led to u over what is tolerated, see error_over().
+  double error(double tolerance, std::span<const double> u) const {
+    return error_over(tolerance, largest_of(error_), largest_of(u_n_), largest_of(u));
+  }
+
+  /// u as it was before the step.  @pre the integrator has several stages
+  void take_back(std::span<double> u) const { std::copy(u_n_.begin(), u_n_.end(), u.begin()); }
+
  private:
+  /// Adds what F_k, which is in `du_`, has in the estimate.
+  void estimate(std::size_t k, double dt) {
+    const double d = dt * integrator_.estimate[k];
+    for (std::size_t j = 0; j < error_.size() && d != 0.0; ++j) error_[j] += d * du_[j];
+  }
+
   template <class State, class System>
   void solve(std::size_t i, const TimeStep& step, State& u, System& system) {
     if constexpr (requires { system.solve(0.0, 0.0, u); }) {
@@ -158,6 +178,7 @@ class Stepper {
   StageRegisters registers_;
   std::vector<double> u_n_, du_;
   std::vector<double> right_;  ///< of an implicit stage
+  std::vector<double> error_;  ///< estimated; empty where none is
 };
 
 /// Advances a state step by step; see each_step() and Stepper.

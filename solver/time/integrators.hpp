@@ -2,7 +2,7 @@
 
 /// @file
 /// Time integrators as tables: explicit strong-stability-preserving Runge-Kutta schemes, and L-stable diagonally
-/// implicit ones for stiff scenes.
+/// implicit ones for stiff scenes, some with an estimate of the error of a step.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,13 @@ struct Integrator {
   std::string_view name;
   int order;
   std::span<const Stage> stages;
+  /// d: dt sum_k d_k F_k, k counted from 0, is by how much u^{n+1} departs from a result that is one order lower, made
+  /// of the same rates. It estimates the error of the step; all zero where there is none.
+  std::array<double, most_stages + 1> estimate = {};
 
+  bool estimates() const {
+    return std::any_of(estimate.begin(), estimate.end(), [](double d) { return d != 0.0; });
+  }
   std::size_t stage_count() const { return stages.size(); }
   const Stage& stage(std::size_t i) const { return stages[i - 1]; }
   double c(std::size_t i) const { return i == 0 ? 0.0 : stage(i).c; }
@@ -67,9 +73,23 @@ inline constexpr double sdirk2_gamma = 0.29289321881345247560;
 inline constexpr Stage sdirk2_stages[] = {{.c = sdirk2_gamma, .alpha = {1.0}, .beta = {0.0, sdirk2_gamma}},
                                           {.c = 1.0, .alpha = {1.0}, .beta = {0.0, 1.0 - sdirk2_gamma, sdirk2_gamma}}};
 
+/// Three stages of one diagonal, of third order and L-stable (Alexander 1977): the root of g^3 - 3 g^2 + 3 g/2 - 1/6
+/// between 1/6 and 1/2.
+inline constexpr double sdirk3_gamma = 0.43586652150845899942;
+inline constexpr Stage sdirk3_stages[] = {
+    {.c = sdirk3_gamma, .alpha = {1.0}, .beta = {0.0, sdirk3_gamma}},
+    {.c = 0.5 * (1.0 + sdirk3_gamma), .alpha = {1.0}, .beta = {0.0, 0.5 * (1.0 - sdirk3_gamma), sdirk3_gamma}},
+    {.c = 1.0, .alpha = {1.0}, .beta = {0.0, 1.20849664917601007034, -0.64436317068446906975, sdirk3_gamma}}};
+
+/// The results of lower order are: a forward Euler step in ssprk2, ssprk2 in ssprk3, and in sdirk2 and sdirk3 those of
+/// all rates but the last.
 inline constexpr Integrator integrators[] = {
-    {"forward-euler", 1, forward_euler_stages},   {"ssprk2", 2, ssprk2_stages}, {"ssprk3", 3, ssprk3_stages},
-    {"backward-euler", 1, backward_euler_stages}, {"sdirk2", 2, sdirk2_stages},
+    {"forward-euler", 1, forward_euler_stages},
+    {"ssprk2", 2, ssprk2_stages, {-0.5, 0.5}},
+    {"ssprk3", 3, ssprk3_stages, {-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}},
+    {"backward-euler", 1, backward_euler_stages},
+    {"sdirk2", 2, sdirk2_stages, {0.0, -sdirk2_gamma, sdirk2_gamma}},
+    {"sdirk3", 3, sdirk3_stages, {0.0, sdirk3_gamma, -2.0 * sdirk3_gamma, sdirk3_gamma}},
 };
 
 inline constexpr const Integrator& forward_euler = integrators[0];

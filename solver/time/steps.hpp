@@ -73,13 +73,13 @@ class BoundedSteps {
 /// Takes step after step.
 ///
 /// @param steps    `next()` gives a TimeStep until there is none
-/// @param take     take(step) advances what the caller has
+/// @param take     take(step) advances what the caller has; it may make the step another one
 /// @param goes_on  called with n and the step after each step n = 1, 2, ...; false ends the run early
 /// @return         the number of steps done
 template <class Steps, class Take, class GoesOn>
 std::int64_t each_step(Steps&& steps, Take&& take, GoesOn&& goes_on) {
   std::int64_t n = 0;
-  while (const std::optional<TimeStep> step = steps.next()) {
+  while (std::optional<TimeStep> step = steps.next()) {
     take(*step);
     ++n;
     if (!goes_on(n, *step)) break;

@@ -25,6 +25,7 @@ std::string Case::key() const {
       scheme.kernel.name, scheme.kernel.parameter, mu, nonlocal_source ? "nonlocal" : "local",
       static_cast<int>(nonlocal_source ? source_rule : SourceRule::gauss), integrator->name, N, delta,
       step.bound == StepRule::Bound::none ? std::to_string(steps)
+      : step.adaptive()                   ? fmt::format("adaptive,{:.17g},{:.17g}", step.tolerance, dt)
                                           : fmt::format("{}*{:.17g}", step.label(), step.safety),
       start == Start{} ? "" : fmt::format("|start={},{:.17g}", start.label(), start.smallest_gap),
       scheme.control == nullptr ? "" : fmt::format("|control={}", scheme.control->name),
@@ -71,6 +72,7 @@ void Case::halve_steps() {
 }
 
 std::string StepRule::label() const {
+  if (adaptive()) return fmt::format("adaptive to {}", text);
   return bound == Bound::none ? text : fmt::format("{:g} {}{}", safety, text, bound == Bound::rows ? " by rows" : "");
 }
 

@@ -20,14 +20,17 @@ namespace acstudy {
 
 /// How long the steps of a run may be.
 struct StepRule {
-  /// Which bound steps follow: none, they are equal; that of Lemma 2.4 or 3.3 at the smallest gap of the moment; or
-  /// what the proofs of these need of the rows, `SchemeRows::strongest_decay`, at the particles of the moment.
-  enum class Bound { none, lemma, rows };
+  /// Which bound steps follow: none, they are equal; that of Lemma 2.4 or 3.3 at the smallest gap of the moment; what
+  /// the proofs of these need of the rows, `SchemeRows::strongest_decay`, at the particles of the moment; or the
+  /// tolerance of the error that each step is estimated to have.
+  enum class Bound { none, lemma, rows, tolerance };
   Bound bound = Bound::none;
-  double safety = 1.0;  ///< fraction of the bound that is taken
-  std::string text;     ///< as a study writes it: "h/4", "cfl"
+  double safety = 1.0;     ///< fraction of the bound that is taken
+  std::string text;        ///< as a study writes it: "h/4", "cfl"; of adaptive steps their tolerance, "1e-2*h^2"
+  double tolerance = 0.0;  ///< see error_over(); 0 unless steps follow it
 
-  /// "h/4", "0.9 cfl", "0.9 cfl by rows"
+  bool adaptive() const { return bound == Bound::tolerance; }
+  /// "h/4", "0.9 cfl", "0.9 cfl by rows", "adaptive to 1e-4"
   std::string label() const;
 };
 
@@ -41,8 +44,8 @@ struct Case {
   const Integrator* integrator;
   std::int64_t N;
   double h, delta;
-  double dt;           ///< of equal steps; with a bound, the first one by Lemma 2.4 or 3.3
-  std::int64_t steps;  ///< equal ones; with a bound, as many of the first one
+  double dt;           ///< of equal steps; with a bound, the first one by Lemma 2.4 or 3.3; the first adaptive one
+  std::int64_t steps;  ///< equal ones; with a bound, as many of the first one; of adaptive ones a guess
   Start start = {};
   StepRule step = {};
   bool readable = false;              ///< run in the readable form of the scheme even where there is a vector form
@@ -57,6 +60,7 @@ struct Case {
     visit(Stored{"N"}, N);
     visit(Stored{"h"}, h);
     visit(Stored{"delta"}, delta);
+    visit(Stored{.name = "tolerance", .in_json = step.adaptive()}, step.tolerance);
   }
 
   /// Text that is equal for two cases exactly if all their inputs are equal.
@@ -72,7 +76,7 @@ struct Case {
   double lemma_bound(double h_min) const;
   /// CFL number at the start: dt over the bound of the lemma.
   double cfl() const { return dt / lemma_bound(h * start.smallest_gap); }
-  /// Twice as many steps of half the length.
+  /// Twice as many steps of half the length.  @pre they are not adaptive
   void halve_steps();
 };
 

@@ -72,6 +72,7 @@ struct CaseResult : PartSeconds {
   std::int64_t flow_evaluations = 0;  ///< particle positions computed after the start
 
   std::int64_t steps = 0;              ///< done
+  std::int64_t rejected = 0;           ///< adaptive steps that were taken back besides
   double dt = 0.0, dt_smallest = 0.0;  ///< largest and smallest step
   StepsAgainstBound against_bound;
   LastState last;
@@ -88,6 +89,7 @@ struct CaseResult : PartSeconds {
     const bool given_up = !r.blow_up.empty() || !r.failure.empty();
     visit(Stored{"dt"}, r.dt);
     visit(Stored{"steps"}, r.steps);
+    visit(Stored{.name = "rejected", .in_json = r.rejected > 0}, r.rejected);
     visit(Stored{"error_linf"}, r.error_linf);
     visit(Stored{"solution_linf"}, r.solution_linf);
     visit(Stored{"error_l1"}, r.error_l1);

@@ -88,11 +88,14 @@ std::vector<Frozen> all_frozen(const Subject& subject, const Constants& constant
 
 /// The largest dt at which the integrator's stability function phi(C dt) has no pole yet.
 double up_to_the_pole(const Integrator& integrator, double C) {
-  return integrator.implicit() && C > 0.0 ? 1.0 / (integrator.diagonal(1) * C) : unbounded;
+  const bool promised = monotonicity_radius(integrator) > 0.0;
+  return integrator.implicit() && C > 0.0 && promised ? 1.0 / (integrator.diagonal(1) * C) : unbounded;
 }
 
-/// phi(C dt), to which theory bounds the norm of a step within the condition; infinite beyond the pole.
+/// phi(C dt), to which theory bounds the norm of a step within the condition; infinite beyond the pole. Where it bounds
+/// no step, e^{C dt}, as the solution may grow.
 double phi(const Integrator& integrator, double C, double dt) {
+  if (monotonicity_radius(integrator) == 0.0) return std::exp(C * dt);
   return dt < up_to_the_pole(integrator, C) ? stability_function(integrator, C * dt).real() : unbounded;
 }
 
@@ -106,6 +109,7 @@ double step_bound(const Integrator& integrator, double dt, double rows, double C
 std::string step_claim(const Integrator& integrator) {
   const double radius = monotonicity_radius(integrator);
   if (std::isinf(radius)) return "a step grows by no more than 1/(1 - C dt), at any CFL number with C dt < 1";
+  if (radius == 0.0) return "theory bounds the growth of no step";
   return fmt::format("a step grows by no more than phi(C dt), up to {}the condition of the rows",
                      radius == 1.0 ? "" : "1 + sqrt(2) times ");
 }
@@ -229,6 +233,7 @@ std::string entries_claim(const Subject& subject, const Integrator& integrator) 
   const StepLemma& lemma = subject.scheme.model->step_lemma;
   const double radius = monotonicity_radius(integrator);
   if (std::isinf(radius)) return std::string(lemma.m_matrix);
+  if (radius == 0.0) return "theory keeps the entries of no step positive";
   return fmt::format("no entry of a step is negative up to {}the condition of the rows, {}",
                      radius == 1.0 ? "" : "1 + sqrt(2) times ", lemma.where_positive);
 }
@@ -304,7 +309,8 @@ Point limit_at(const Subject& subject, const Integrator& integrator, const Const
     const double limit = last_stable(stable, highest);
     const double promised = frozen.rows > 0.0 ? std::min(monotonicity_radius(integrator) * frozen.rows, pole) : 0.0;
     const double least = std::min(promised / frozen.lemma, highest);
-    const double lower = least * (1.0 - 1e-6), upper = exact ? least * (1.0 + 1e-6) : unbounded;
+    const bool any = monotonicity_radius(integrator) > 0.0;
+    const double lower = any ? least * (1.0 - 1e-6) : -unbounded, upper = exact ? least * (1.0 + 1e-6) : unbounded;
     const bool within = lower <= limit && limit <= upper,
                was = worst.lower <= worst.value && worst.value <= worst.upper;
     if (std::isnan(worst.value) || (was && (!within || limit < worst.value))) {
@@ -397,7 +403,8 @@ Measurement sharp_limit(const Subject& subject, const Integrator& integrator, co
   const bool of_norm = measure == Measure::norm;
   const std::string claim(limit_is_exact(subject, integrator, measure, constants.C)
                               ? subject.scheme.model->step_lemma.sharp
-                              : "stable as far as the rows need, at least");
+                          : monotonicity_radius(integrator) == 0.0 ? "theory promises no step"
+                                                                   : "stable as far as the rows need, at least");
   return bounded_if_at_all(
       check_of(subject, integrator, of_norm ? "sharp in the max norm" : "sharp in the spectral radius", claim,
                of_norm ? "largest CFL number, max norm" : "largest CFL number, spectral radius", "delta/h"),

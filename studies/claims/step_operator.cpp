@@ -97,6 +97,7 @@ double monotonicity_radius(const Integrator& integrator) {
   double radius = std::numeric_limits<double>::infinity();
   if (integrator.implicit()) {
     const std::size_t last = integrator.stage_count();
+    if (last > 2) return 0.0;
     return last == 1 ? radius : 1.0 / (integrator.stage(last).beta[1] - integrator.diagonal(last));
   }
   for (const Stage& stage : integrator.stages) {

@@ -44,7 +44,8 @@ std::complex<double> stability_function(const Integrator& integrator, std::compl
 /// The function phi = stability_function is absolutely monotone on [-x, 0] up to this x: a step of an integrator may be
 /// that many times longer than one of forward Euler. For explicit stages, convex combinations of forward Euler steps,
 /// the least alpha/beta, 1 for those of this table; infinite for one implicit stage; for two, S = (I - gamma dt R)^-2
-/// (I + (1 - 2 gamma) dt R) and its numerator decides.
+/// (I + (1 - 2 gamma) dt R) and its numerator decides; 0 for three, where phi = a w + b w^2 + c w^3, w = 1/(1 - gamma
+/// z), has c < 0, so that its high derivatives are negative.
 double monotonicity_radius(const Integrator& integrator);
 
 /// Largest row sum of absolute values.

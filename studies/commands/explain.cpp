@@ -165,7 +165,7 @@ std::string explain(const StudyForecast& forecast, std::span<const Finding> budg
     const Case& c = series.cases.front();
     if (c.integrator == &own_steps && c.steps == 0) continue;
     const std::string stepping =
-        fmt::format("time: {}, step {} at most{}\n", c.integrator->name, c.step.label(),
+        fmt::format("time: {}, step {}{}{}\n", c.integrator->name, c.step.label(), c.step.adaptive() ? "" : " at most",
                     std::isinf(c.limit) ? "" : fmt::format("; a case is ended after {:g} s", c.limit));
     if (said.insert(stepping).second) out += stepping;
   }
@@ -179,7 +179,9 @@ std::string explain(const StudyForecast& forecast, std::span<const Finding> budg
                                                 : "local");
     const Case& first = series.cases.front();
     if (first.start != Start{}) out += fmt::format("  start: {}\n", first.start.label());
-    if (first.step.bound != StepRule::Bound::none) {
+    if (first.step.adaptive()) {
+      out += "  dt: of the first step that is tried; steps: a guess\n";
+    } else if (first.step.bound != StepRule::Bound::none) {
       out += fmt::format("  dt and steps: by the lemma at the start; while running, by the {} of the moment\n",
                          first.step.bound == StepRule::Bound::lemma ? "smallest gap" : "rows of the scheme");
     }
@@ -210,11 +212,12 @@ std::string explain(const StudyForecast& forecast, std::span<const Finding> budg
                        "neighbors", "CFL");
     for (const Case& c : series.cases) {
       const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
-      out +=
-          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>#6.3g}{}{}\n", c.N, c.h, c.delta, c.dt,
-                      c.steps, series.scheme.model->sides() * static_cast<std::int64_t>(per_side), c.cfl(),
-                      c.cfl() > 1.0 && !c.integrator->implicit() ? "  beyond the bound 1 of the stability lemma" : "",
-                      series.against_reference && &c == &series.cases.back() ? "  reference" : "");
+      out += fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>#6.3g}{}{}\n", c.N, c.h, c.delta, c.dt,
+                         c.steps, series.scheme.model->sides() * static_cast<std::int64_t>(per_side), c.cfl(),
+                         c.cfl() > 1.0 && !c.integrator->implicit() && !c.step.adaptive()
+                             ? "  beyond the bound 1 of the stability lemma"
+                             : "",
+                         series.against_reference && &c == &series.cases.back() ? "  reference" : "");
     }
     const ModelCard& model = *series.scheme.model;
     if (!model.step_lemma.enough_for_every_kernel && !vanishes_at_origin(series.scheme.kernel)) {

@@ -66,8 +66,9 @@ std::string list_text(const std::string& what, bool draw) {
     for (const Integrator& integrator : integrators) {
       const std::size_t stages = integrator.stage_count();
       out +=
-          fmt::format("{}{:<35} order {}, {} {}{}\n", indent, fmt::format("\"{}\"", integrator.name), integrator.order,
-                      stages, stages == 1 ? "stage" : "stages", integrator.implicit() ? ", implicit" : "");
+          fmt::format("{}{:<35} order {}, {} {}{}{}\n", indent, fmt::format("\"{}\"", integrator.name),
+                      integrator.order, stages, stages == 1 ? "stage" : "stages",
+                      integrator.implicit() ? ", implicit" : "", integrator.estimates() ? ", estimates its error" : "");
     }
   }
   if (what.empty() || what == "scenes") {

@@ -160,6 +160,13 @@ void read_pollution(const Table& root, Study& study) {
           "one with N = [160, 320, 640, 1280]",
           *name));
     }
+    if (std::any_of(named.series.begin(), named.series.end(),
+                    [](const Series& series) { return series.cases.front().step.adaptive(); })) {
+      table.place(item).fail(fmt::format(
+          "studies contains \"{}\", whose steps are adaptive; the part of time is seen by halving them, so name one "
+          "with an expression such as step = \"h/2\"",
+          *name));
+    }
     SceneText text = named.scene->text();
     text.name.clear();
     text.u = fmt::format("{}*({})", other_unit, text.u);

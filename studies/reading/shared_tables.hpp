@@ -69,10 +69,13 @@ inline constexpr TableKeys scheme_table{"[[scheme]]", scheme_keys};
 
 inline constexpr Key time_keys[] = {
     {"integrator", "an integrator", "how time is stepped"},
-    {"step", "expression in h, N", "the largest step; \"cfl\": a bound of the scheme at the particles of the moment"},
+    {"step", "expression in h, N", "the largest step; \"cfl\": a bound of the scheme; \"adaptive\": see tolerance"},
     {"safety", "number above 0", "fraction of the bound; goes with step = \"cfl\"", "0.9"},
     {"bound", "\"lemma\", \"rows\"", "by the smallest gap, or by the rows of the scheme; goes with \"cfl\"",
      "\"lemma\""},
+    {"tolerance", "expression, or a list", "in h and N: of the error of each adaptive step; of a list each is a series",
+     "needed with \"adaptive\""},
+    {"first", "expression in h, N", "the first step that is tried; goes with step = \"adaptive\"", "\"h\""},
     {"limit", "time", "that a case may take, \"30 s\", \"10 min\"; a command has its timeout", "none"},
     {"expect", "a verdict", "in place of what the paths expect; convergence only", "what the paths expect"},
 };

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "solver/time/steps.hpp"
 #include "studies/models/control_choice.hpp"
 #include "studies/models/outside_program.hpp"
 #include "studies/models/theory.hpp"
@@ -231,42 +230,6 @@ Resolutions read_resolutions(const Table& table, const Scene& scene) {
 
 namespace {
 
-Stepping read_time(const Table& time) {
-  std::vector<std::pair<std::string, const Integrator*>> words;
-  for (const Integrator& integrator : integrators) words.emplace_back(integrator.name, &integrator);
-  Stepping stepping{
-      .integrator = time.choice("integrator", time.need("integrator", "integrator = \"forward-euler\""), words),
-      .rule = {},
-      .step = std::nullopt,
-      .at_step = time.place(time.need("step", "step = \"h/4\""))};
-  if (const toml::node* const limit = time.find("limit")) stepping.limit = time.seconds("limit", *limit);
-  if (const toml::node* const expect = time.find("expect")) stepping.expect = read_expected(time, *expect);
-  StepRule& rule = stepping.rule;
-  if (time.find("step")->value_exact<std::string>() == "cfl") {
-    rule = {.bound = StepRule::Bound::lemma, .safety = 0.9, .text = "cfl"};
-    if (const toml::node* const safety = time.find("safety")) {
-      rule.safety = time.number("safety", *safety);
-      if (rule.safety <= 0.0) {
-        time.place(*safety).fail(fmt::format(
-            "safety = {}; the fraction of the bound must be positive and finite: write safety = 0.9", rule.safety));
-      }
-    }
-    if (const toml::node* const bound = time.find("bound")) {
-      rule.bound = time.choice<StepRule::Bound>("bound", *bound,
-                                                {{"lemma", StepRule::Bound::lemma}, {"rows", StepRule::Bound::rows}});
-    }
-    return stepping;
-  }
-  for (const char* const key : {"safety", "bound"}) {
-    if (const toml::node* const node = time.find(key)) {
-      time.place(*node).fail(fmt::format("{} goes with step = \"cfl\"; leave it out", key));
-    }
-  }
-  stepping.step = time.expression("step", "step = \"h/4\"", {"h", "N"});
-  rule.text = stepping.step->text();
-  return stepping;
-}
-
 SourceRule read_source_rule(const Table& root) {
   if (root.find("source") == nullptr) return SourceRule::gauss;
   const Table source = root.sub_table("source");
@@ -282,25 +245,14 @@ std::vector<Stepping> read_problem_with_steppings(const Table& root, Study& stud
   study.source_rule = read_source_rule(root);
   const toml::node* const several = root.find("time");
   if (several == nullptr && programs_alone(root)) return {Stepping{.integrator = &own_steps}};
-  if (several == nullptr || !several->is_array()) return {read_time(root.sub_table("time"))};
-
-  std::vector<Stepping> steppings;
-  std::set<std::string> labels;
-  for (const Table& table : root.array_of_tables("time")) {
-    Stepping& stepping = steppings.emplace_back(read_time(table));
-    stepping.label = fmt::format("{}, step {}", stepping.integrator->name, stepping.rule.label());
-    if (!labels.insert(stepping.label).second) {
-      table.place().fail("the same integrator and steps a second time; leave one of them out");
-    }
-  }
-  if (steppings.size() == 1) steppings.front().label.clear();
-  return steppings;
+  return read_steppings(root);
 }
 
 Stepping read_problem(const Table& root, Study& study) {
   std::vector<Stepping> steppings = read_problem_with_steppings(root, study);
   if (steppings.size() > 1) {
-    root.place(*root.find("time")).fail("a study of this kind steps in one way; leave one [[time]]");
+    root.place(*root.find("time"))
+        .fail("a study of this kind steps in one way; leave one [[time]], and one tolerance where steps are adaptive");
   }
   if (steppings.front().expect) {
     root.place(*root.find("time"))
@@ -328,7 +280,6 @@ void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place
 Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entry, std::int64_t N, double delta,
                bool nonlocal_source, const Place& at, const Start& start) {
   const Scene& scene = *study.scene;
-  const double count = static_cast<double>(N), h = scene.period() / count;
   check_horizon(scene, N, delta, at);
   if (nonlocal_source && entry.scheme.program == nullptr && entry.scheme.model->continuum == nullptr) {
     at.fail(
@@ -341,7 +292,7 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
          .source_rule = study.source_rule,
          .integrator = time.integrator,
          .N = N,
-         .h = h,
+         .h = scene.period() / static_cast<double>(N),
          .delta = delta,
          .dt = 0.0,
          .steps = 0,
@@ -354,26 +305,7 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
       return c;
     }
   }
-  const double bound = time.step ? (*time.step)({h, count}) : time.rule.safety * c.lemma_bound(h * start.smallest_gap);
-  if (!time.step && std::isinf(bound)) {
-    time.at_step.fail(
-        fmt::format("step = \"cfl\" where {} is zero, so that no bound limits a step; write an expression "
-                    "in h and N such as \"h/4\"",
-                    entry.scheme.model->step_lemma.limit));
-  }
-  if (!std::isfinite(bound) || bound <= 0.0) {
-    time.at_step.fail(fmt::format(
-        "step = {:.6g} at h = {:.6g} (N = {}); a time step must be positive and finite: write an expression "
-        "in h and N such as \"h/4\"",
-        bound, h, N));
-  }
-  if (scene.T() / bound > 1e12) {
-    time.at_step.fail(fmt::format("step = {:.6g} at h = {:.6g} (N = {}) asks for {:.3g} steps; the most is 1e12", bound,
-                                  h, N, scene.T() / bound));
-  }
-  c.steps = steps_for(scene.T(), bound);
-  if (entry.scheme.program == nullptr) c.limit = time.limit;
-  c.dt = c.steps == 0 ? 0.0 : scene.T() / static_cast<double>(c.steps);
+  set_steps(c, time);
   return c;
 }
 

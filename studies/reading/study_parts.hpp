@@ -12,6 +12,7 @@
 #include "studies/cases/study.hpp"
 #include "studies/cases/subject.hpp"
 #include "studies/reading/path_part.hpp"
+#include "studies/reading/time_part.hpp"
 #include "studies/reading/toml_table.hpp"
 
 namespace acstudy {
@@ -55,16 +56,6 @@ Resolutions read_resolutions(const Table& table, const Scene& scene);
 /// Fails unless 0 < delta < period / 2.  @param at  the place to blame
 void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at);
 
-/// [time]: how a study steps.
-struct Stepping {
-  const Integrator* integrator;
-  StepRule rule;
-  std::optional<Expression> step;  ///< upper bound of equal steps; absent where they follow a bound of the scheme
-  Place at_step;
-  double limit = std::numeric_limits<double>::infinity();  ///< seconds that a case may take
-  std::optional<Verdict> expect = {};                      ///< in place of what paths expect
-  std::string label = {};  ///< for the labels of series, where a study has several ways to step
-};
 /// [scene], [time] and [source] of a study that runs cases; what is read is set in `study`.
 Stepping read_problem(const Table& root, Study& study);
 /// The same where [[time]] may stand several times.

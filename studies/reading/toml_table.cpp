@@ -97,8 +97,8 @@ std::string Table::text(std::string_view key, const toml::node& node, std::strin
   place(node).fail(fmt::format("{} must be a string, not {}; write, for example, {}", key, described(node), example));
 }
 
-std::string Table::expression_text(std::string_view key, std::string_view example, std::size_t& offset) const {
-  const toml::node& node = need(key, example);
+std::string Table::expression_text(std::string_view key, const toml::node& node, std::string_view example,
+                                   std::size_t& offset) const {
   offset = 0;
   if (node.is_floating_point()) return fmt::format("{:.17g}", number(key, node));
   if (const auto value = node.value_exact<std::int64_t>()) return fmt::format("{}", *value);
@@ -108,16 +108,16 @@ std::string Table::expression_text(std::string_view key, std::string_view exampl
                                described(node), example));
 }
 
-Expression Table::expression(std::string_view key, std::string_view example,
+Expression Table::expression(std::string_view key, const toml::node& node, std::string_view example,
                              const std::vector<std::string>& variables) const {
   std::size_t offset = 0;
-  const std::string text = expression_text(key, example, offset);
+  const std::string text = expression_text(key, node, example, offset);
   try {
     return Expression(text, variables);
   } catch (const ExpressionError& error) {
     const bool too_long = text.size() > Expression::most_letters;  // then the error begins with the text
     const std::string said = too_long ? "" : " = " + in_quotes(text);
-    place(*find(key)).shifted(offset + error.position).fail(fmt::format("{}{}: {}", key, said, error.what()));
+    place(node).shifted(offset + error.position).fail(fmt::format("{}{}: {}", key, said, error.what()));
   }
 }
 

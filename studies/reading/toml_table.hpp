@@ -76,8 +76,16 @@ class Table {
   std::string text(std::string_view key, const toml::node& node, std::string_view example) const;
 
   /// An expression or a plain number, as text; `offset` becomes the distance from the node to the first character.
-  std::string expression_text(std::string_view key, std::string_view example, std::size_t& offset) const;
+  std::string expression_text(std::string_view key, std::string_view example, std::size_t& offset) const {
+    return expression_text(key, need(key, example), example, offset);
+  }
+  std::string expression_text(std::string_view key, const toml::node& node, std::string_view example,
+                              std::size_t& offset) const;
   Expression expression(std::string_view key, std::string_view example,
+                        const std::vector<std::string>& variables) const {
+    return expression(key, need(key, example), example, variables);
+  }
+  Expression expression(std::string_view key, const toml::node& node, std::string_view example,
                         const std::vector<std::string>& variables) const;
 
   /// A finite number.

@@ -181,9 +181,16 @@ CaseResult advance(const Case& c, LineScheme& scheme, Source& source, const std:
 
   try {
     LineSchemeInMotion<Motion> system(c, scheme, source, motion, watch, result);
-    Stepper stepper(*c.integrator, u.size());
+    Stepper stepper(*c.integrator, u.size(), c.step.adaptive());
     step_to_end(
-        c, [&](double at) { return system.bound(at); }, [&](const TimeStep& step) { stepper(step, u, system); },
+        c, [&](double at) { return system.bound(at); },
+        StepActions{[&](const TimeStep& step) { stepper(step, u, system); },
+                    [&](double tolerance) { return stepper.error(tolerance, u.values()); },
+                    [&] {
+                      stepper.take_back(u.values());
+                      watch.take_back();
+                      ++result.rejected;
+                    }},
         keep_going);
   } catch (const std::domain_error& error) {
     growth.restore(u.values());

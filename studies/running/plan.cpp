@@ -121,7 +121,8 @@ std::vector<Plan> plan(std::span<const Case* const> cases) {
       plan.velocity = velocity;
     }
     plan.form = form_of(plan, table);
-    plan.particles = plan.form->together ? particles_of(*c) : c->key();
+    // Adaptive steps are of one case: no other has its particles at the same times.
+    plan.particles = plan.form->together && !c->step.adaptive() ? particles_of(*c) : c->key();
     if (plan.form->together) plan.pairs = pairs_of(*c);
   }
   agree_on_forms(plans);

@@ -39,6 +39,8 @@ class BoundWatch {
   }
   /// A step has been done.
   void step(std::int64_t n, TimeStep step);
+  /// A step has been taken back: its stages count for nothing.
+  void take_back() { bound_ = std::numeric_limits<double>::infinity(); }
   const StepsAgainstBound& result() const { return result_; }
 
  private:

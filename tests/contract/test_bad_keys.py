@@ -6,6 +6,8 @@ from tests.bad_studies import (DIGITS, JITTERED, KERNEL, LEVELS, NEEDED, PATH_TA
                                TIME_TABLE, VERDICTS, Mistakes, bad, given, inline, kernel, unsolved)
 from tests.program import FIELDS, STUDY, USE, edit
 
+ADAPTIVE = (('"forward-euler"', '"ssprk3"'),)
+
 MISTAKES = {
     # Keys and tables
     "unknown table": (bad(("[time]", "[@grid]\nn = 1\n\n[time]")),
@@ -24,7 +26,7 @@ MISTAKES = {
     "unknown key of a kernel": (kernel('{ name = "power", alpha = 0.5, @beta = 1 }'),
                                 'unknown key "beta" in kernel; known keys: name, alpha, profile, eta, breaks, exponent'),
     "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step, '
-                              'safety, bound, limit, expect'),
+                              'safety, bound, tolerance, first, limit, expect'),
     "unknown key in [[path]]": (bad((SOURCE, '@target = "local"')),
                                 'unknown key "target" in [[path]]; known keys: name, delta, N, source, reference, '
                                 'expect, order, start'),
@@ -145,7 +147,7 @@ MISTAKES = {
                            'divergence = true; it must be one of "local", "nonlocal"'),
     "unknown integrator": (bad(('"forward-euler"', '@"rk4"')),
                            'integrator = "rk4"; it must be one of "forward-euler", "ssprk2", "ssprk3", '
-                           '"backward-euler", "sdirk2"'),
+                           '"backward-euler", "sdirk2", "sdirk3"'),
     "safety without a bound": (bad(('"h/4"', '"h/4"\nsafety = @0.9')),
                                'safety goes with step = "cfl"; leave it out'),
     "bound without a bound": (bad(('"h/4"', '"h/4"\nbound = @"rows"')), 'bound goes with step = "cfl"; leave it out'),
@@ -159,6 +161,42 @@ MISTAKES = {
     "the same steps a second time": (bad(("[time]", "[[time]]")) + '\n@[[time]]\nintegrator = "forward-euler"\n'
                                      'step = "h/4"\n',
                                      "the same integrator and steps a second time; leave one of them out"),
+    "adaptive steps of an integrator without an estimate": (
+        bad(('"h/4"', '@"adaptive"\ntolerance = 1e-4')),
+        'step = "adaptive", but forward-euler has no estimate of its error; take one of the integrators "ssprk2", '
+        '"ssprk3", "sdirk2", "sdirk3"'),
+    "adaptive steps without a tolerance": (
+        bad(("[time]", "@[time]"), ('"forward-euler"', '"ssprk3"'), ('"h/4"', '"adaptive"')),
+        '[time] has no "tolerance"; write, for example, tolerance = 1e-4'),
+    "a tolerance of equal steps": (bad(('"h/4"', '"h/4"\ntolerance = @1e-4')),
+                                   'tolerance goes with step = "adaptive"; leave it out'),
+    "a first step of steps within a bound": (bad(('"h/4"', '"cfl"\nfirst = @"h"')),
+                                             'first goes with step = "adaptive"; leave it out'),
+    "a bound of adaptive steps": (bad(*ADAPTIVE, ('"h/4"', '"adaptive"\ntolerance = 1e-4\nsafety = @0.9')),
+                                  'safety goes with step = "cfl"; leave it out'),
+    "tolerance of zero": (
+        bad(*ADAPTIVE, ('"h/4"', '"adaptive"\ntolerance = @0')),
+        'tolerance = 0 at h = 0.392699 (N = 16); a tolerance must be positive and finite: write an expression in h '
+        'and N such as "1e-2*h^2"'),
+    "tolerance below round-off": (
+        bad(*ADAPTIVE, ('"h/4"', '"adaptive"\ntolerance = [1e-4, @1e-14]')),
+        "tolerance = 1e-14 at h = 0.392699 (N = 16); round-off alone comes close to that: the least is 1e-13"),
+    "tolerance of an unknown name": (
+        bad(*ADAPTIVE, ('"h/4"', '"adaptive"\ntolerance = "1e-2*@k^2"')),
+        'tolerance = "1e-2*k^2": unknown name "k"; it may use h, N, pi, e and the usual functions'),
+    "empty list of tolerances": (
+        bad(*ADAPTIVE, ('"h/4"', '"adaptive"\ntolerance = @[]')),
+        "tolerance must be a list, not an empty list; write, for example, tolerance = [1e-2, 1e-3]"),
+    "tolerance is a list of lists": (
+        bad(*ADAPTIVE, ('"h/4"', '"adaptive"\ntolerance = [@[1e-4]]')),
+        "tolerance must be an expression or a number, not an array; write, for example, tolerance = 1e-4"),
+    "the same tolerance a second time": (
+        bad(*ADAPTIVE, ("[time]", "@[time]"), ('"h/4"', '"adaptive"\ntolerance = [1e-4, 0.0001]')),
+        "the same integrator and steps a second time; leave one of them out"),
+    "first step of zero": (
+        bad(*ADAPTIVE, ('"h/4"', '"adaptive"\ntolerance = 1e-4\nfirst = @"0*h"')),
+        'first = 0 at h = 0.392699 (N = 16); a time step must be positive and finite: write an expression in h and N '
+        'such as "h"'),
     "unknown start": (bad((SOURCE, SOURCE + '\nstart = @"random"')),
                       'start = "random"; it must be one of "uniform", "jittered", "clustered"'),
     "start without its gap": (bad((SOURCE, SOURCE + '\nstart = @"jittered"')),

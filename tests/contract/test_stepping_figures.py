@@ -59,6 +59,17 @@ class SteppingFigures(ReportTest):
             self.assertIn(words, rows[1])
         self.assertNotIn("step 124", rows[0] + rows[2])
 
+    def test_adaptive_steps_are_told_with_those_that_were_rejected(self):
+        write(self.folder, "stiff", *ways(), series(
+            stepping="sdirk3, adaptive to 1e-4", step_text="adaptive to 1e-4", integrator="sdirk3", expected="stable",
+            tolerance=np.full(4, 1e-4), rejected=np.array([3, 5, 7, 11]), steps=np.array([31, 32, 33, 34])))
+        self.assertEqual(self.run_report(self.folder)[0], 0)
+        page = (self.folder / "index.html").read_text(encoding="utf-8")
+        self.assertIn("sdirk3, step adaptive to 1e-4", page)
+        for count in ("+ 3 rejected", "+ 5 rejected", "+ 7 rejected", "+ 11 rejected"):
+            self.assertIn(count, page)
+        self.assertEqual(page.count("rejected"), 5)     # the finest twice: in the table of all ways, too
+
     def test_they_stay_out_of_the_figure_of_all_run_times(self):
         several, plain = self.study(*ways()), self.study(series())
         self.assertEqual(registry.with_run_times([several, plain]), [plain])

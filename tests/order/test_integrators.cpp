@@ -1,4 +1,5 @@
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -54,12 +55,42 @@ std::vector<double> observed_orders(const Integrator& integrator, Rate rate, dou
   return order;
 }
 
+const std::span<const Integrator> all_tables[] = {integrators, test::general_tables};
+
+/// The factor of a step on u' = z u, dt = 1, straight from the table; and what is estimated of its error.
+struct StepFactor {
+  std::complex<double> factor, estimate;
+};
+StepFactor factor_of(const Integrator& integrator, std::complex<double> z) {
+  std::vector<std::complex<double>> U = {1.0};
+  for (std::size_t i = 1; i <= integrator.stage_count(); ++i) {
+    const Stage& stage = integrator.stage(i);
+    std::complex<double> sum = 0.0;
+    for (std::size_t k = 0; k < i; ++k) sum += (stage.alpha[k] + stage.beta[k] * z) * U[k];
+    U.push_back(sum / (1.0 - stage.beta[i] * z));
+  }
+  std::complex<double> estimate = 0.0;
+  for (std::size_t k = 0; k < U.size(); ++k) estimate += integrator.estimate[k] * z * U[k];
+  return {U.back(), estimate};
+}
+
+/// What is estimated of the error of one step of length dt from u = 1, t = 0.3.
+template <class Rate>
+double estimated(const Integrator& integrator, Rate rate, double dt) {
+  PeriodicArray u(1);
+  u[0] = 1.0;
+  Scalar<Rate> system{rate};
+  Stepper stepper(integrator, 1, true);
+  stepper({.begin = 0.3, .end = 0.3 + dt, .dt = dt}, u, system);
+  return stepper.error(1.0, u.values()) * std::max(1.0, u[0]);
+}
+
 double depends_on_time(double t, double u) { return u * std::cos(t) + std::exp(std::sin(t)); }
 
 }  // namespace
 
 TEST_CASE("every integrator has its declared order and no more") {
-  for (const std::span<const Integrator> tables : {std::span(integrators), std::span(test::general_tables)}) {
+  for (const auto& tables : all_tables) {
     for (const Integrator& integrator : tables) {
       INFO(integrator.name);
       const auto check = [&](const std::vector<double>& orders) {
@@ -93,7 +124,7 @@ TEST_CASE("a table with a stage at the wrong time, or from the wrong rate, loses
 }
 
 TEST_CASE("the rate of a stage is taken at its time") {
-  for (const std::span<const Integrator> tables : {std::span(integrators), std::span(test::general_tables)}) {
+  for (const auto& tables : all_tables) {
     for (const Integrator& integrator : tables) {
       for (std::size_t i = 1; i <= integrator.stage_count(); ++i) {
         const Stage& stage = integrator.stage(i);
@@ -132,6 +163,68 @@ TEST_CASE("one step on u' = lambda u is the rational function of an L-stable sch
     CHECK_THAT(solve(integrators[3], rate, 1.0, 1), WithinAbs(1.0 / (1.0 - z), 1e-13));
     CHECK_THAT(solve(integrators[4], rate, 1.0, 1),
                WithinAbs((1.0 + (1.0 - 2.0 * g) * z) / ((1.0 - g * z) * (1.0 - g * z)), 1e-13));
+    const double g3 = sdirk3_gamma, w = 1.0 / (1.0 - g3 * z);
+    CHECK_THAT(solve(integrators[5], rate, 1.0, 1),
+               WithinAbs((1.0 + (1.0 - 3.0 * g3) * z + (0.5 - 3.0 * g3 + 3.0 * g3 * g3) * z * z) * w * w * w, 1e-13));
+  }
+}
+
+TEST_CASE("implicit integrators are L-stable") {
+  for (const Integrator& integrator : integrators) {
+    if (!integrator.implicit()) continue;
+    INFO(integrator.name);
+    for (double y = 1e-3; y < 1e7; y *= 1.3) {
+      CAPTURE(y);
+      CHECK(std::abs(factor_of(integrator, {0.0, y}).factor) <= 1.0 + 1e-15);
+    }
+    for (const double z : {-1e6, -1e8, -1e10}) CHECK(std::abs(factor_of(integrator, z).factor) * -z < 10.0);
+    // Of one diagonal, so that the poles are at 1/gamma > 0, and of one factorization where rates do not change.
+    for (std::size_t i = 1; i <= integrator.stage_count(); ++i) CHECK(integrator.diagonal(i) == integrator.diagonal(1));
+  }
+}
+
+TEST_CASE("the result of lower order has the order that it should have, and is bounded on stiff problems") {
+  for (const Integrator& integrator : integrators) {
+    if (!integrator.estimates()) continue;
+    INFO(integrator.name);
+    // sum_k d_k c_k^q is the difference of two quadratures: zero to the lower order and not beyond.
+    for (int q = 0; q < integrator.order; ++q) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k <= integrator.stage_count(); ++k)
+        sum += integrator.estimate[k] * std::pow(integrator.c(k), q);
+      CAPTURE(q);
+      if (q < integrator.order - 1) {
+        CHECK_THAT(sum, WithinAbs(0.0, 1e-15));
+      } else {
+        CHECK(std::abs(sum) > 0.03);
+      }
+    }
+    // Of a step of length dt it is proportional to dt to the power of the integrator's order.
+    for (const auto& rate : {+depends_on_time, +[](double, double u) { return u * u; }}) {
+      const double ratio = estimated(integrator, rate, 2e-3) / estimated(integrator, rate, 1e-3);
+      CHECK_THAT(std::log2(ratio), WithinAbs(integrator.order, 0.05));
+    }
+    for (const double z : {-0.3, 0.4}) {
+      CHECK_THAT(estimated(
+                     integrator, [z](double, double u) { return z * u; }, 1.0),
+                 WithinAbs(std::abs(factor_of(integrator, z).estimate), 1e-13));
+    }
+    if (integrator.implicit()) {
+      for (const double z : {-1e4, -1e8}) {
+        const StepFactor stiff = factor_of(integrator, z);
+        CHECK(std::abs(stiff.estimate) > 0.5);  // what a stiff part would lose is seen
+        CHECK(std::abs(stiff.factor - stiff.estimate) < 2.5);
+      }
+    }
+  }
+}
+
+TEST_CASE("explicit integrators estimate their errors by one another") {
+  for (const double z : {-1.7, -0.3, 0.4}) {
+    for (const int i : {1, 2}) {
+      const StepFactor one = factor_of(integrators[i], z), lower = factor_of(integrators[i - 1], z);
+      CHECK(std::abs(one.factor - lower.factor - one.estimate) < 1e-15);
+    }
   }
 }
 

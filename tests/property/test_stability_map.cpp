@@ -8,6 +8,7 @@
 
 #include "solver/time/implicit.hpp"
 #include "studies/claims/stability_map.hpp"
+#include "studies/claims/step_operator.hpp"
 #include "studies/models/control_choice.hpp"
 #include "tests/catch.hpp"
 #include "tests/irregular_particles.hpp"
@@ -225,6 +226,34 @@ TEST_CASE("implicit limits: none of backward Euler, 1 + sqrt(2) of SDIRK2", "[st
   CHECK(second.points[0].value == Approx(1.0 + std::sqrt(2.0)).epsilon(1e-3));
 }
 
+TEST_CASE("of SDIRK3 nothing is promised, and no step is too long for it", "[stability-map]") {
+  const Integrator& sdirk3 = integrators[5];
+  CHECK(monotonicity_radius(sdirk3) == 0.0);
+  // phi = a w + b w^2 + c w^3, w = 1/(1 - gamma z): the k-th derivative at 0 has the sign of a + b (k + 1) + c (k + 1)
+  // (k + 2)/2. Three values give the three numbers.
+  const auto w = [](double z) { return 1.0 / (1.0 - sdirk3_gamma * z); };
+  Eigen::Matrix3d powers;
+  Eigen::Vector3d phi;
+  int row = 0;
+  for (const double z : {-3.0, -1.0, 1.0}) {
+    powers.row(row) << w(z), w(z) * w(z), w(z) * w(z) * w(z);
+    phi[row++] = stability_function(sdirk3, z).real();
+  }
+  const Eigen::Vector3d coefficient = powers.partialPivLu().solve(phi);
+  CHECK(coefficient.sum() == Approx(1.0));
+  CHECK(coefficient[2] == Approx(-0.957).epsilon(1e-3));
+
+  for (const int model : {1, 2}) {
+    const Subject one = subject(model, spline, Arrangement::jittered, test::named_scene("constant-velocity"));
+    const Finding limit = sharp_limit(one, sdirk3, {24, {0.5, 2.5, 6.0}, {}}, Measure::spectral).take();
+    for (const Point& point : limit.points) CHECK(point.value == 1000.0);
+    CHECK(limit.promised == Verdict::inconclusive);
+    CHECK(limit.as_expected());
+    CHECK(stability_map(one, sdirk3, {24, {2.5}, {0.5, 4.0}}, Measure::norm).take().as_expected());
+    CHECK(smallest_entry(one, sdirk3, {24, {2.5}, {0.5, 4.0}}).take().as_expected());
+  }
+}
+
 TEST_CASE("values that theory does not bound are no evidence", "[stability-map]") {
   const Subject one = subject(1, inverse, Arrangement::uniform, test::named_scene("constant-velocity"));
   const Finding beyond = growth_curve(one, forward_euler, 32, 0.5, 2.0).take();
@@ -269,7 +298,9 @@ TEST_CASE("steps, growth and spectral radius keep their bounds on every arrangem
         for (const Measure measure : {Measure::norm, Measure::spectral, Measure::growth}) {
           const Finding finding = stability_map(one, integrator, grid, measure).take();
           CAPTURE(finding.label(), finding.judgement.reason);
-          CHECK(finding.judgement.verdict == Verdict::holds);
+          const bool bounded = monotonicity_radius(integrator) > 0.0;
+          CHECK(finding.judgement.verdict == (bounded ? Verdict::holds : Verdict::inconclusive));
+          CHECK(finding.as_expected());
           CHECK(finding.points.size() == 12);
         }
       }

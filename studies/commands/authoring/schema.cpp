@@ -60,6 +60,10 @@ json value_schema(std::string_view written) {
     return {{"type", "array"}, {"items", value_schema(one)}, {"minItems", 1}};
   }
   if (written.starts_with('"')) return words_of(written);
+  if (written == "expression, or a list") {
+    const json one = value_schema("expression");
+    return {{"anyOf", {one, {{"type", "array"}, {"items", one}, {"minItems", 1}}}}};
+  }
   if (written.starts_with("expression")) return {{"type", {"string", "number"}}};
   if (written == "whole number") return {{"type", "integer"}};
   if (written == "number above 0") return {{"type", "number"}, {"exclusiveMinimum", 0}};

@@ -74,11 +74,15 @@ double work_of(const Case& c, const Form& form) {
   return static_cast<double>(c.steps) * static_cast<double>(c.integrator->stage_count()) * static_cast<double>(c.N);
 }
 
-/// The case with so many steps of its length.
+/// The case with so many steps of its length; equal ones where it has adaptive ones, for these cost the same.
 Case shortened(const Case& c, std::int64_t steps) {
   Case one = c;
+  if (c.step.adaptive()) {
+    one.step = {};
+    one.dt = c.scene->T() / static_cast<double>(c.steps);
+  }
   SceneText text = c.scene->text();
-  text.T = fmt::format("{:.17g}", c.dt * static_cast<double>(steps));
+  text.T = fmt::format("{:.17g}", one.dt * static_cast<double>(steps));
   one.scene = std::make_shared<const Scene>(text);
   one.steps = steps;
   one.limit = std::numeric_limits<double>::infinity();

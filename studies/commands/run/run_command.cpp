@@ -51,7 +51,7 @@ int run(const std::vector<std::string>& files, const RunOptions& options, bool v
   } else {
     const std::vector<std::string> notes = steps_beyond_bounds(result.studies, most_notes);
     for (const std::string& note : notes) say("note: " + note);
-    fmt::print("{}{}", verbose ? table_text(summary.rows, table_width()) : "",
+    fmt::print("{}{}", verbose ? table_text(summary.rows, table_width()) + adaptive_steps_text(result.studies) : "",
                summary_text(summary, width, most_lines - 2 * notes.size()));
   }
   if (!result.interrupted) return summary.status;

@@ -157,7 +157,8 @@ std::vector<std::string> steps_beyond_bounds(const std::vector<StudyResult>& stu
       double worst = 0.0;
       for (std::size_t i = 0; i < series.results.size(); ++i) {
         const StepsAgainstBound& bound = series.results[i].against_bound;
-        const bool meant = series.series->cases[i].step.bound == StepRule::Bound::rows;
+        const StepRule& rule = series.series->cases[i].step;
+        const bool meant = rule.bound == StepRule::Bound::rows || rule.adaptive();
         if (bound.first_step > 0 && !meant) worst = std::max(worst, bound.largest);
       }
       if (worst == 0.0) continue;
@@ -175,6 +176,23 @@ std::vector<std::string> steps_beyond_bounds(const std::vector<StudyResult>& stu
     lines.push_back(fmt::format("steps of {} more studies are, too; each case's are in the result files", more));
   }
   return lines;
+}
+
+std::string adaptive_steps_text(const std::vector<StudyResult>& studies) {
+  std::string text;
+  for (const StudyResult& study : studies) {
+    for (const SeriesResult& series : study.series) {
+      if (!series.series->cases.front().step.adaptive()) continue;
+      std::vector<std::string> counts;
+      for (const std::size_t i : series.completed()) {
+        const CaseResult& result = series.results[i];
+        counts.push_back(fmt::format("{} + {} at N = {}", result.steps, result.rejected, series.series->cases[i].N));
+      }
+      text += fmt::format("{}, {}: steps + rejected ones: {}\n", study.study->name, series.series->label(),
+                          fmt::join(counts, ", "));
+    }
+  }
+  return text;
 }
 
 }  // namespace acstudy

@@ -38,7 +38,10 @@ std::string summary_text(const RunSummary& summary, std::size_t width, std::size
 std::string departures_text(const RunSummary& summary, std::size_t width, std::size_t most);
 
 /// A line per study whose steps went beyond the bound of their lemma, and by how much; the first `most` of them, and
-/// how many there are besides. Steps that follow the rows' bound mean to, and are none of them.
+/// how many there are besides. Steps that follow the rows' bound, or a tolerance, mean to, and are none of them.
 std::vector<std::string> steps_beyond_bounds(const std::vector<StudyResult>& studies, std::size_t most);
+
+/// A line per series of adaptive steps: how many its cases took, and took back.
+std::string adaptive_steps_text(const std::vector<StudyResult>& studies);
 
 }  // namespace acstudy

@@ -100,7 +100,7 @@ class Ensemble {
       m.group = group->get();
       m.group->add(m.c, m.values);
       m.growth.emplace(largest.all(larger));
-      m.solution_at_first = largest.all(larger);
+      m.solution_at_first = m.largest_before = largest.all(larger);
       m.lemma_bound = m.c.lemma_bound(1.0);
       least_limit_ = std::min(least_limit_, m.c.limit);
     }
@@ -132,7 +132,7 @@ class Ensemble {
 
   void go() {
     const auto start = std::chrono::steady_clock::now();
-    std::int64_t n = 0;
+    std::int64_t n = 0;  // steps, and those taken back
     const auto take = [&](const TimeStep& step) {
       // Times are taken in all of the first steps and then in the middle one of every sixteen.
       team_.weigh(n < 64 ? 1.0 : n % 16 == 8 ? 16.0 : 0.0);
@@ -143,8 +143,8 @@ class Ensemble {
       }
       stages_done_ = 0;
     };
-    const auto goes_on = [&](std::int64_t, const TimeStep& step) {
-      if (!look(n, step)) return false;
+    const auto goes_on = [&](std::int64_t done, const TimeStep& step) {
+      if (!look(done, step)) return false;
       if (std::isfinite(least_limit_) && step.end < scene_.T() && !within_limits(start)) return false;
       if (!weighed_up_ && std::isfinite(most_seconds_) && (n <= 64 || n % 16 == 0)) {
         const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -153,8 +153,12 @@ class Ensemble {
       interrupted_ = step.end < scene_.T() && stop_.load(std::memory_order_relaxed);
       return !interrupted_;
     };
+    // A case of adaptive steps is alone: it is the one whose error decides.
+    Member& only = members_.front();
     step_to_end(
-        first_, [&](double t) { return lemma_bound(t); }, take, goes_on);
+        first_, [&](double t) { return lemma_bound(t); },
+        StepActions{take, [&](double tolerance) { return only.error_over(tolerance); }, [&] { only.reject(); }},
+        goes_on);
   }
 
   /// Ends cases whose share of the time since `start` is above their limit; false if no case is left.
@@ -217,7 +221,7 @@ class Ensemble {
     each_source([&](ParticleSource& source) {
       team_.timed(source.seconds, [&] { source.evaluate_directly(t, *particles_); });
     });
-    for (Member& m : members_) m.largest.fill(0.0);
+    for (Member& m : members_) m.start_stage();
     for (const auto& group : groups_) {
       if (group->empty()) continue;
       group->rates(team_, [&](const Piece& piece) {
@@ -258,7 +262,7 @@ class Ensemble {
       count_step(m.result, n, step);
       m.t = step.end;
       const auto exact_size = [&] { return scene_.solution_size(particles_->positions(step.end), step.end); };
-      const double largest = m.largest.all(larger);
+      const double largest = m.largest_before = m.largest.all(larger);
       m.running = m.growth->makes_sense(n, step.end, m.values.u.values(), largest, exact_size);
       if (!m.running) {
         if (!std::isfinite(largest)) m.take_back(first_.integrator->stage_count());

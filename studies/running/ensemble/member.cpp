@@ -1,5 +1,6 @@
 #include "studies/running/ensemble/member.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -24,6 +25,21 @@ ACSTUDY_VECTOR_CLONES double apply_stage(const StageSum stage, const double* rat
   return largest + sum;
 }
 
+/// error += d (rate + f) at some particles.
+/// @return  the largest |error|; NaN if one is not finite
+ACSTUDY_VECTOR_CLONES double add_to_error(double d, const double* rate, const double* f, double* error,
+                                          std::ptrdiff_t count) {
+  double largest = 0.0, sum = 0.0;
+#pragma omp simd reduction(max : largest) reduction(+ : sum)
+  for (std::ptrdiff_t j = 0; j < count; ++j) {
+    const double value = error[j] + d * (rate[j] + f[j]);
+    error[j] = value;
+    largest = std::abs(value) > largest ? std::abs(value) : largest;
+    sum += 0.0 * value;
+  }
+  return largest + sum;
+}
+
 }  // namespace
 
 Member::Member(const Case& its_case, std::size_t count, const Team& team)
@@ -35,7 +51,9 @@ Member::Member(const Case& its_case, std::size_t count, const Team& team)
       next(count),
       u_n(its_case.integrator->stage_count() > 1 ? count : 0),
       registers(*its_case.integrator, count),
-      largest(team, 0.0) {}
+      largest(team, 0.0),
+      error(its_case.step.adaptive() ? count : 0),
+      largest_error(team, 0.0) {}
 
 void Member::stage(std::size_t i, double dt, const Piece& piece) {
   const std::ptrdiff_t j = piece.begin;
@@ -43,6 +61,11 @@ void Member::stage(std::size_t i, double dt, const Piece& piece) {
   const double *const rate = values.rate.data() + j, *const f = source->f() + j;
   if (const auto kept = registers.rate(i - 1); !kept.empty()) {
     for (std::ptrdiff_t k = 0; k < piece.size(); ++k) kept[j + k] = rate[k] + f[k];
+  }
+  if (!error.empty()) {
+    if (i == 1) std::fill_n(error.begin() + j, piece.size(), 0.0);
+    const double d = dt * c.integrator->estimate[i - 1];
+    largest_error[piece] = larger(largest_error[piece], add_to_error(d, rate, f, &error[j], piece.size()));
   }
   const StageSum sum = registers.sum(i, dt, i == 1 ? u : u_n.at(j), u, j, piece.size());
   largest[piece] = larger(largest[piece], apply_stage(sum, rate, f, &next[j], piece.size()));

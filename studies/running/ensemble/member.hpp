@@ -12,22 +12,36 @@
 
 namespace acstudy {
 
-/// The larger of two sizes; NaN if one is.
-inline double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
-
 struct Member {
   Member(const Case& its_case, std::size_t count, const Team& team);
 
   /// u at the start of the step, from its first stage to that of the next.
   PeriodicArray& before() { return u_n.size() > 0 ? u_n : next; }
 
-  /// `next` and `largest`: stage i of a step of length dt at the particles of a piece, whose rates are there.
+  /// Before the first piece of a stage.
+  void start_stage() {
+    largest.fill(0.0);
+    largest_error.fill(0.0);
+  }
+  /// `next`, `largest` and what is estimated of the error: stage i of a step of length dt at the particles of a piece,
+  /// whose rates are there.
   void stage(std::size_t i, double dt, const Piece& piece);
   /// Makes what stage i has given the state; after all pieces.
   void accept(std::size_t i);
   /// Puts back the state at the start of a step of which `stages_done` stages are done.
   void take_back(std::size_t stages_done) {
     if (stages_done > 0) std::swap(values.u, before());
+  }
+
+  /// The estimated error of the step done over what is tolerated, see acstudy::error_over().
+  double error_over(double tolerance) const {
+    return acstudy::error_over(tolerance, largest_error.all(larger), largest_before, largest.all(larger));
+  }
+  /// Undoes the step done, which is rejected.
+  void reject() {
+    take_back(c.integrator->stage_count());
+    bound.take_back();
+    ++result.rejected;
   }
 
   const Case& c;
@@ -44,6 +58,9 @@ struct Member {
   double lemma_bound = 0.0;  ///< for a smallest gap of 1
   double solution_at_first = 0.0;
   PerThread<double> largest;  ///< |u| after the last stage
+  ZeroedVector error;         ///< estimated of the step; empty where none is
+  PerThread<double> largest_error;
+  double largest_before = 0.0;  ///< |u| at the start of the step
   double t = 0.0;
   bool running = true;
   bool put_off = false;  ///< left where it is, to be run another time

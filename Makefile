@@ -57,12 +57,17 @@ mutants:  ## tests the tests: each mistake planted in a copy of the sources has 
 	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$(scripts/find-python.sh)" reports/report.py "$(OUT)" || \
 		[ $$status -ne 0 ] || status=4; fi; exit $$status
 
-bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some 6 minutes)
-	@echo "acstudy: some 6 minutes, in which the machine should do nothing else"
+# Those that step in several ways. That some of these blow up (3) is part of the answer.
+way_studies = $(wildcard studies/bench/stiff-*.toml)
+
+bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some 10 minutes)
+	@echo "acstudy: some 10 minutes, in which the machine should do nothing else"
 	@$(acstudy) bench $(bench_studies) --out "$(OUT)/bench" --fresh
 	@$(acstudy) bench studies/bench/scaling-threads.toml --threads $(THREADS) --out "$(OUT)/bench-threads" --fresh
+	@$(acstudy) bench $(way_studies) --runs 2 --least-seconds 0.1 --out "$(OUT)/bench-stiff" --fresh || [ $$? -eq 3 ]
 	$(setup) report
-	@python=$$(scripts/find-python.sh) && "$$python" reports/bench_tables.py "$(OUT)" && "$$python" reports/report.py "$(OUT)"
+	@python=$$(scripts/find-python.sh) && "$$python" reports/bench_tables.py "$(OUT)" && \
+	"$$python" reports/bench_tables.py --ways "$(OUT)" && "$$python" reports/report.py "$(OUT)"
 
 compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and second by second (5 minutes; COMPARE=--quick: 45 s)
 	$(setup) report

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Prints what benches measured as Markdown tables: python3 reports/bench_tables.py [OUT_DIR]
+"""Prints what benches measured as Markdown tables: python3 reports/bench_tables.py [--ways] [OUT_DIR]
 
 OUT_DIR is the folder of the results, with the benches in OUT_DIR/bench*/bench.json. The tables: seconds to reach an
 error, the law of cost, the prices of work, threads. Where the time goes is on the page of the report.
+--ways: of the studies that step in several ways instead, seconds to reach an error and what a step costs, way by way.
 What is missing of them, as on a disturbed machine, is said on stderr.
 Exit codes: 0 done; 2 no bench, or not one.
 """
@@ -12,13 +13,15 @@ import shutil
 import sys
 import textwrap
 
-from kinds.bench import tables
+from kinds.bench import tables, ways
 from reading import bench_results, results
 
 DEFAULT = "reports/out"
 
 
 def main(arguments):
+    of_ways = "--ways" in arguments
+    arguments = [argument for argument in arguments if argument != "--ways"]
     if len(arguments) > 1 or any(argument.startswith("-") for argument in arguments):
         asked = arguments in (["-h"], ["--help"])
         print(__doc__.strip(), file=sys.stdout if asked else sys.stderr)
@@ -30,11 +33,14 @@ def main(arguments):
         return _fail(error)
     if not benches:
         return _fail(f"{folder}: no bench ({bench_results.PLACES}) in it; run make bench first, or name the folder")
-    for title, header, rows, note in tables.tables(benches):
+    chosen = [bench for bench in benches if of_ways == any(map(ways.stepped, bench.curves))]
+    if of_ways and not chosen:
+        return _fail(f"{folder}: no bench of studies that step in several ways; run make bench first")
+    for title, header, rows, note in ways.tables(chosen) if of_ways else tables.tables(benches):
         print(f"**{title}**\n\n{markdown(header, rows)}\n" + (f"{note}\n" if note else ""))
-    for line in tables.left_out(benches):
+    for line in [] if of_ways else tables.left_out(benches):
         _say(line)
-    print(measured_by(benches))
+    print(measured_by(chosen))
     return 0
 
 

@@ -153,7 +153,8 @@ class _Figure:
                     found["style"] = "white-space:pre"
             else:
                 found[name] = _rounded(value)
-        return {name: _REFERENCE.sub(lambda one: f"url(#{self._id(one[1])})", value) for name, value in found.items()}
+        return {name: _REFERENCE.sub(lambda one: f"url(#{self._id(one[1])})", value) if "url(" in value else value
+                for name, value in found.items()}
 
 
 def _rounded(text):

@@ -61,6 +61,7 @@ def _start(tasks, work):
 
 
 def _work(connection, tasks, work):
+    gc.freeze()     # what is there already stays, and need not be searched
     with suppress(EOFError, ConnectionError):   # the first process is gone
         while True:
             i = connection.recv()
@@ -92,18 +93,18 @@ def _in_turn(count, connections):
 
 def _called(task):
     function, *arguments = task
-    with _no_search_for_garbage():
+    with no_search_for_garbage():
         return function(*arguments)
 
 
 def _rendered(task, formats):
     draw, *arguments = task
-    with _no_search_for_garbage():
+    with no_search_for_garbage():
         return [look.render(one, formats) for one in draw(*arguments)]
 
 
 @contextmanager
-def _no_search_for_garbage():
+def no_search_for_garbage():
     """Figures and findings are many objects that stay: to look for garbage among them takes a fifth of the time."""
     on = gc.isenabled()
     gc.disable()

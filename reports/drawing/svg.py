@@ -11,7 +11,6 @@ from html import escape, unescape
 import io
 import re
 
-from fontTools import subset        # comes with matplotlib, which cuts fonts for PDF in the same way
 from matplotlib.font_manager import FontProperties, findfont
 
 from drawing import inlined
@@ -57,6 +56,8 @@ def faces(letters):
 @lru_cache(maxsize=64)
 def _font(style, letters):
     """STIXGeneral cut down to `letters`, as WOFF in base 64."""
+    from fontTools import subset    # comes with matplotlib, which cuts fonts for PDF so; it loads as long as it cuts
+
     options = subset.Options(flavor="woff", layout_features=[], name_IDs=[0, 1, 2, 13], hinting=False)
     options.drop_tables += ["FFTM"]     # the font editor's dates
     cut, buffer = subset.Subsetter(options), io.BytesIO()

@@ -29,8 +29,9 @@ def coverage_figure(found):
     with typography():
         left, width, tall, foot = 0.78, 5.0, 3.4, 0.6 + LINE * 1.5 * math.ceil(len(found) / 2)
         figure = blank(0.12 + tall + foot)
-        panel = add_axes(figure, left, foot, width, tall)
-        beside = add_axes(figure, left + width + 0.15, foot, WIDTH - left - width - 0.25, tall, sharey=panel)
+        panel = add_axes(figure, left, foot, width, tall, follows=True)
+        beside = add_axes(figure, left + width + 0.15, foot, WIDTH - left - width - 0.25, tall, sharey=panel,
+                          follows=True)
         of_levels = [finding for finding in found if np.all(finding.points.variable > 0)]
         alone = [finding for finding in found if finding not in of_levels]
         lower, upper = found[0].points.lower[0], found[0].points.upper[0]

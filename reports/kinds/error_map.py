@@ -122,7 +122,8 @@ def map_figure(study, planes):
                 if (scheme, target) not in planes:
                     continue
                 h, delta, error = planes[scheme, target]
-                panel = add_axes(figure, left + column * (width + gap), bottom, width, tall, xscale="log", yscale="log")
+                panel = add_axes(figure, left + column * (width + gap), bottom, width, tall, follows=True,
+                                 xscale="log", yscale="log")
                 panel.contourf(h, delta, np.ma.masked_invalid(error), levels=levels, cmap=colors, norm=norm)
                 _label_contours(panel, h, delta, error)
                 _paths(panel, h, delta)

@@ -35,7 +35,7 @@ def scan_figure(curves, sums):
         handles = []
         for i, (subject, factor, label) in enumerate(((FALSE, 1000.0, "false firm verdicts in 1,000"),
                                                       (DECIDED, 100.0, "decided verdicts (%)"))):
-            panel = add_axes(figure, left + i * (width + gap), foot, width, tall)
+            panel = add_axes(figure, left + i * (width + gap), foot, width, tall, follows=True)
             whole = sums[subject].points
             bound = whole.upper[0] if np.isfinite(whole.upper[0]) else whole.lower[0]
             panel.axhline(factor * bound, color=GRAY, linewidth=0.9)

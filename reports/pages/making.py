@@ -3,6 +3,7 @@
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
+import gc
 
 from drawing import processes
 from kinds import registry, run_times
@@ -21,7 +22,9 @@ class Drawn:
 def read(files, kept):
     """The studies in result files. `kept`: a reading.kept.Kept."""
     made_of = [("study", kept.of_file(file)) if file.is_file() else () for file in files]
-    found = _made([(results.read_study, file) for file in files], made_of, kept, processes.results)
+    with processes.no_search_for_garbage():
+        found = made([(results.read_study, file) for file in files], made_of, kept, processes.results)
+    gc.freeze()     # they stay to the end
     return [replace(study, file=file) for study, file in zip(found, files)]
 
 
@@ -29,14 +32,16 @@ def drawn(studies, benches, kept, formats=()):
     """The figures of studies and benches, each with files of these `formats`."""
     tasks = list(_tasks(studies, benches))
     made_of = [(draw.__module__, *map(kept.of_file, files), more, formats) for files, (draw, _, *more) in tasks]
-    found = _made([task for _, task in tasks], made_of, kept, partial(processes.in_turn, formats=formats))
+    found = made([task for _, task in tasks], made_of, kept, partial(processes.in_turn, formats=formats))
     n = len(studies)
     return Drawn(dict(zip((study.name for study in studies), found)), [one for group in found[n:-1] for one in group],
                  found[-1])
 
 
-def _made(tasks, made_of, kept, make):
-    """What each task gives, kept or made by `make`; `made_of`: of each, what it depends on."""
+def made(tasks, made_of, kept, make):
+    """What each task gives, kept or made by `make`; `made_of`: of each, what it depends on. Without `kept` all are made."""
+    if kept is None:
+        return list(make(tasks, 1))
     found = [kept.get(*one) for one in made_of]
     missing = [i for i, one in enumerate(found) if one is None]
     with closing(make([tasks[i] for i in missing], len(missing))) as in_turn:

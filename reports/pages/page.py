@@ -4,10 +4,9 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from drawing import inlined, svg
+from drawing import inlined, processes, svg
 from kinds import registry
-from pages import claims, comparison, explorer, headline, in_parts, mutants, paths, questions, run_time
-from pages.making import Drawn
+from pages import claims, comparison, explorer, headline, in_parts, making, mutants, paths, questions, run_time
 from pages.study import article, listing
 from pages.verdicts import departing, verdicts
 from writing import figures, markup, tables
@@ -35,7 +34,7 @@ def files(studies, drawn, benches=(), seeded=None, compared=None, parts=False, k
 
 def html(studies, drawings, benches=(), seeded=None, compared=None):
     """The page in one as text. `drawings`: {name of a study: its drawings}."""
-    return files(studies, Drawn(drawings, [], []), benches, seeded, compared)["index.html"]
+    return files(studies, making.Drawn(drawings, [], []), benches, seeded, compared)["index.html"]
 
 
 def _contents(studies, drawn, benches, seeded, compared, kept):
@@ -48,7 +47,8 @@ def _contents(studies, drawn, benches, seeded, compared, kept):
     rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
     inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
     statements = claims.statements(studies)
-    sections = {question: _answers(question, found, rest, drawn.studies, statements, kept) for question in questions.ALL}
+    articles, faces = _made(studies, rest, svg.letters(inline), kept)
+    sections = {question: _answers(question, found, articles, drawn.studies, statements) for question in questions.ALL}
     sections[questions.COMPATIBILITY] = paths.table(studies) + sections[questions.COMPATIBILITY]
     if curves or compared:
         sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, benches, drawn.benches, compared)
@@ -60,7 +60,7 @@ def _contents(studies, drawn, benches, seeded, compared, kept):
     bad = departing(studies)
     nouns = _count(studies)
     return dict(
-        title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(svg.faces(svg.letters(inline))),
+        title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(faces),
         script=markup.script(), verdicts=answers, outcome=markup.outcome(
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
@@ -77,10 +77,24 @@ def _contents(studies, drawn, benches, seeded, compared, kept):
         compared_absent=comparison.section(None) if compared is None and not sections[questions.RUN_TIME] else "")
 
 
-def _answers(question, found, rest, drawings, statements, kept):
+def _made(studies, drawings, letters, kept):
+    """({name of a study: its part}, the fonts of all figures). `drawings`: of each study, those not shown elsewhere."""
+    tasks = [(svg.faces, letters), *((_article, study, drawings.get(study.name, [])) for study in studies)]
+    made_of = [("faces", letters)]
+    if kept:
+        made_of += (("article", kept.of_file(study.file), str(study.file), shown) for _, study, shown in tasks[1:])
+    faces, *articles = making.made(tasks, made_of, kept, processes.results)
+    return {study.name: Markup(text) for study, text in zip(studies, articles)}, faces
+
+
+def _article(study, drawings):
+    return str(article(study, drawings))    # plain text can be kept
+
+
+def _answers(question, found, articles, drawings, statements):
     """Statement by statement, and then the studies of a question."""
     return markup.joined((*_statements(question, found, drawings, statements),
-                          *(article(study, rest.get(study.name, []), kept) for study in found[question])))
+                          *(articles[study.name] for study in found[question])))
 
 
 def _statements(question, found, drawings, statements):

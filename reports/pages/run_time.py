@@ -53,7 +53,7 @@ def choices(found):
     scenes, groups = list(dict.fromkeys(curve.scene for curve in found)), {}
     for curve in sorted(found, key=lambda curve: scenes.index(curve.scene)):
         groups.setdefault((curve.scene, curve.path), []).append(curve)
-    targets = [f"{target:.0e}".replace("e-0", "e-") for target in work_precision.TARGETS]
+    targets = map(work_precision.target_text, work_precision.TARGETS)
     rows = [(scene, path, *(_quickest(group, target) for target in work_precision.TARGETS))
             for (scene, path), group in groups.items()]
     several = len({scene for scene, *_ in rows}) > 1
@@ -81,7 +81,7 @@ def _curve(study, series, scene):
     n = len(cases)
     spread = Spread(np.where(cases.seconds > 0, cases.seconds, np.nan), cases.seconds_low,
                     np.maximum(cases.seconds_high - cases.seconds, 0.0))
-    return Curve((study.name,), series.scheme, series.path, series.source, series.delta_text, series.step_text,
+    return Curve((study.name,), study.title, series.scheme, series.path, series.source, series.delta_text, series.step_text,
                  series.integrator, series.stepping, "", scene, study.scene.T, 1, cases.N,
                  cases.h, cases.delta, cases.steps, np.ones(n), cases.error_linf, spread, {}, cases.work_pairs,
                  cases.repeats)

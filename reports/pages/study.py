@@ -2,25 +2,12 @@
 
 import shlex
 
-from markupsafe import Markup
-
 from kinds import registry
 from writing import markup
 
 
-def article(study, drawings, kept=None):
-    """`drawings`: those that are not shown elsewhere; `kept`: where it may stand from the last report."""
-    if kept is None:
-        return _article(study, drawings)
-    made_of = ("article", kept.of_file(study.file), str(study.file), drawings)
-    found = kept.get(*made_of)
-    if found is None:
-        found = str(_article(study, drawings))
-        kept.keep(found, *made_of)
-    return Markup(found)
-
-
-def _article(study, drawings):
+def article(study, drawings):
+    """`drawings`: those that are not shown elsewhere."""
     shown = registry.of(study).section(study, drawings, registry.entries(study))
     return markup.render("study.html", study=study, body=shown, origin=origin(study))
 

@@ -30,6 +30,7 @@ class Spread:
 class Curve:
     """The cases of one scheme along one path with one number of threads, coarse to fine: arrays [n]."""
     studies: tuple          # that asked for some of these cases
+    title: str              # of the first of them
     scheme: Scheme
     path: str
     source: str
@@ -105,8 +106,9 @@ def _identity(series):
     scheme = Scheme(model=series["model"], divergence="" if standing else series["divergence"],
                     kernel=series["kernel"], alpha=series.get("alpha"), mu=series.get("mu"), label=series.get("label", ""))
     texts = ("path", "source", "delta", "step", "integrator", "stepping", "motion", "scene", "T", "threads")
-    # A scaling study shows its own numbers alone.
-    return (scheme, *(series[name] for name in texts), series["study"] if is_scaling(series["study"]) else "")
+    # A scaling study shows its own numbers alone, and so does one that steps in several ways.
+    alone = is_scaling(series["study"]) or series["stepping"]
+    return (scheme, *(series[name] for name in texts), series["study"] if alone else "")
 
 
 def is_scaling(study):
@@ -125,8 +127,8 @@ def _curve(identity, group, all_cases):
     def spread(name):
         return Spread(*(column(name, part) for part in ("median", "minimum", "deviation")))
 
-    return Curve(studies=tuple(dict.fromkeys(series["study"] for series in group)), scheme=scheme, path=path,
-                 source=source, delta_text=delta, step_text=step, integrator=integrator, stepping=stepping,
+    return Curve(studies=tuple(dict.fromkeys(series["study"] for series in group)), title=group[0]["title"],
+                 scheme=scheme, path=path, source=source, delta_text=delta, step_text=step, integrator=integrator, stepping=stepping,
                  motion=motion, scene=scene, T=T, threads=threads, N=column("N").astype(np.int64), h=column("h"),
                  delta=column("delta"), steps=column("steps").astype(np.int64), stages=column("stages"),
                  error=column("error_linf"), seconds=spread("seconds"), parts={name: spread(name) for name in PARTS},

@@ -161,12 +161,15 @@ def closest(points):
     if not len(points):
         return None, math.nan
     with np.errstate(invalid="ignore"):
-        bounds = np.abs(np.where(np.isfinite([points.lower, points.upper]), [points.lower, points.upper], 0.0))
-        scale = np.where(bounds.max(axis=0) > 0, bounds.max(axis=0), 1.0)
-        margin = np.minimum(points.upper - points.value, points.value - points.lower) / scale
-    margin = np.where(np.isnan(margin), -np.inf, margin)    # what is not a number keeps no bound
+        bound = np.maximum(_finite_size(points.lower), _finite_size(points.upper))
+        margin = np.minimum(points.upper - points.value, points.value - points.lower) / np.where(bound > 0, bound, 1.0)
+    margin[np.isnan(margin)] = -np.inf      # what is not a number keeps no bound
     i = int(np.argmin(margin))
     return (None, math.nan) if margin[i] == np.inf else (i, float(margin[i]))
+
+
+def _finite_size(bounds):
+    return np.where(np.isfinite(bounds), np.abs(bounds), 0.0)
 
 
 def _base(statement):

@@ -29,7 +29,8 @@ def read_study(path):
     """The study in the result file `path`; ResultError if the file is missing, damaged or of another format."""
     path = Path(path)
     try:
-        with h5py.File(path, "r") as file:
+        # Read at once: a file has thousands of small groups.
+        with h5py.File(path, "r", driver="core", backing_store=False) as file:
             return _study(path, file)
     except OSError as error:
         if not path.is_file():
@@ -75,9 +76,10 @@ def _finding(group):
     points = group.record(Points, label=labels)
     if labels and len(labels) != len(points):
         raise ValueError(f"{group.group.name}: {len(labels)} labels, but {len(points)} points")
-    return group.record(Finding, points=points, coordinates=group.group_of("coordinates").attributes, also_expected=tuple(group.attribute("also_expected", "").split()),
-                        series=None, fit={name.removeprefix("surface_"): float(value) for name, value in
-                                          sorted(group.attributes.items()) if name.startswith("surface_")})
+    return group.record(Finding, points=points, coordinates=group.group_of("coordinates").attributes,
+                        also_expected=tuple(group.attribute("also_expected", "").split()), series=None,
+                        fit={name.removeprefix("surface_"): float(value) for name, value in
+                             sorted(group.attributes_named("surface_").items())})
 
 
 def _of_series(group, scene):

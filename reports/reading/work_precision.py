@@ -16,6 +16,10 @@ FARTHEST = 4.0      # times the finest N: how far errors are extrapolated
 RESAMPLES = 2000
 
 
+def target_text(target):
+    return f"{target:.0e}".replace("e-0", "e-")
+
+
 @dataclass(frozen=True)
 class Reach:
     """Seconds to reach an error. kind: "between" two levels; "coarsest": already the coarsest level is better, so its

@@ -11,7 +11,7 @@ from drawing.frames import panel_frames
 from drawing.look import COLORS, GRAY, LEGEND, LINE, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from drawing.styles import styles_of
 from drawing.timed import BARS, EFFICIENT, mark_frontier
-from kinds.bench import tables as bench_tables
+from kinds.bench import tables as bench_tables, way_figures
 from reading import bench_results, names, work_precision
 
 # Positions, velocities, pair sums, source, rest: told apart by hatching too.
@@ -41,6 +41,7 @@ def drawings(benches, styles):
                     "Parts of the median run time at the largest N of each scheme and path. Weights that are stored "
                     "are part of the velocities; those that are computed where they are used are part of the pair "
                     "sums, and so are windows. Rest: stages, set-up, and the watch over bounds and growth.")]
+    found += way_figures.drawings(benches)
     scaling = scaling_figure(benches, styles)
     if scaling:
         found.append(Drawing(

@@ -2,6 +2,10 @@
 
 import math
 
+from markupsafe import Markup
+
+from kinds.bench import ways
+from kinds.bench.texts import seconds
 from reading import bench_results, names, work_precision
 
 KINDS = {"between": "{}", "coarsest": "< {}", "beyond": "~ {} *", "not": "not reached", "none": "no solution"}
@@ -52,9 +56,10 @@ def left_out(benches):
 
 
 def page_tables(benches):
-    """The same for a page, which has room for all."""
+    """The same for a page, which has room for all, those of ways to step too."""
     parts = ("Where the time goes, in percent, at the largest N", *parts_table(compared(benches)), "")
-    return tables(benches) + ([parts] if parts[2] else [])
+    of_ways = ways.tables(benches, Markup("<strong>{}</strong>"), Markup(" / ").join)
+    return tables(benches) + ([parts] if parts[2] else []) + of_ways
 
 
 def compared(benches):
@@ -62,7 +67,7 @@ def compared(benches):
     found = {}
     for bench in benches:
         for curve in bench.curves:
-            if curve.threads == 1 and not curve.stepping and not any(map(bench_results.is_scaling, curve.studies)):
+            if curve.threads == 1 and not ways.stepped(curve) and not any(map(bench_results.is_scaling, curve.studies)):
                 found.setdefault(_but_studies(curve), curve)
     return list(found.values())
 
@@ -90,7 +95,7 @@ def reach_table(curves):
         found = [work_precision.reach(curve, target) for target in work_precision.TARGETS]
         rows.append((label, curve.path, f"{curve.N[0]} – {curve.N[-1]}", f"{curve.error[-1]:.1e}",
                      *(KINDS[one.kind].format(seconds(one.seconds)) for one in found)))
-    targets = [f"{target:.0e}".replace("e-0", "e-") for target in work_precision.TARGETS]
+    targets = map(work_precision.target_text, work_precision.TARGETS)
     return ("scheme", "path", "N", "finest error", *targets), rows
 
 
@@ -155,13 +160,6 @@ def _but_threads(curve):
 
 def timing(curve, i):
     return f"{seconds(curve.seconds.median[i])} ± {seconds(curve.seconds.deviation[i])}"
-
-
-def seconds(value):
-    """Two significant digits, which is what a run time has."""
-    if not math.isfinite(value):
-        return "–"
-    return f"{value:.2g}" if 1e-3 <= value < 100 else f"{value:.0f}" if value >= 100 else f"{value:.1e}"
 
 
 def exponent(value, interval):

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/clones.hpp"
 #include "solver/time/pivots.hpp"
 
 namespace acstudy {
@@ -14,7 +15,7 @@ double kept(double value) { return std::abs(value) < negligible ? 0.0 : value; }
 
 }  // namespace
 
-void TridiagonalFactors::factorize(const PeriodicBand& A) {
+ACSTUDY_CHAIN_CLONES void TridiagonalFactors::factorize(const PeriodicBand& A) {
   const std::ptrdiff_t last = A.size() - 1;
   for (auto* factor : {&lower_, &inverse_, &upper_, &right_, &below_}) factor->resize(static_cast<std::size_t>(last));
   const auto before = [&](std::ptrdiff_t i) { return A.left(i) > 0 ? A.beside(i, -1) : 0.0; };
@@ -47,7 +48,7 @@ void TridiagonalFactors::factorize(const PeriodicBand& A) {
   if (!all_finite(inverse_)) refuse_singular();
 }
 
-void TridiagonalFactors::solve(std::span<double> g) const {
+ACSTUDY_CHAIN_CLONES void TridiagonalFactors::solve(std::span<double> g) const {
   const std::ptrdiff_t last = std::ssize(g) - 1;
   double y = g[0], closing = g[last] - below_[0] * y;
   for (std::ptrdiff_t i = 1; i < last; ++i) {

@@ -233,13 +233,16 @@ void BorderedFactors::solve(std::span<double> g) {
   const auto cut_at = g.begin() + start_;
   std::rotate_copy(g.begin(), cut_at, g.end(), y_.begin());
   double* const at_border = y + inner_;
+  // Each row waits for nothing but the newest value, which does not pass through memory.
+  double newest = 0.0;
   for (std::ptrdiff_t i = 0; i < inner_; ++i) {
     const double* const row = factor_.data() + origin_[i];
     double sum = y[i];
-    for (std::ptrdiff_t k = lower_[i]; k < i; ++k) sum -= row[k] * y[k];
-    y[i] = sum;
+    for (std::ptrdiff_t k = lower_[i]; k < i - 1; ++k) sum -= row[k] * y[k];
+    if (lower_[i] < i) sum -= row[i - 1] * newest;
+    y[i] = newest = sum;
     if (!has_below_[i]) continue;
-    for (std::ptrdiff_t q = 0; q < border_; ++q) at_border[q] -= below_[i * stride_ + q] * sum;
+    for (std::ptrdiff_t q = 0; q < border_; ++q) at_border[q] -= below_[i * stride_ + q] * newest;
   }
   const auto corner = [&](std::ptrdiff_t q, std::ptrdiff_t c) { return corner_[q * stride_ + c]; };
   for (std::ptrdiff_t k = 0; k < border_; ++k) {
@@ -256,9 +259,10 @@ void BorderedFactors::solve(std::span<double> g) {
     if (has_right_[i]) {
       for (std::ptrdiff_t q = 0; q < border_; ++q) sum -= right_[i * stride_ + q] * at_border[q];
     }
-    // The newest one last: it alone is waited for.
-    for (std::ptrdiff_t c = upper_[i]; c > i; --c) sum -= above[c] * y[c];
-    y[i] = sum * inverse_[i];
+    for (std::ptrdiff_t c = upper_[i]; c > i + 1; --c) sum -= above[c] * y[c];
+    sum *= inverse_[i];
+    if (upper_[i] > i) sum -= above[i + 1] * inverse_[i] * newest;
+    y[i] = newest = sum;
   }
   std::rotate_copy(y_.begin(), y_.end() - start_, y_.end(), g.begin());
 }

@@ -14,7 +14,9 @@ namespace acstudy {
 ///
 /// Where I - scale R is diagonally dominant, by rows or by columns, it is eliminated row after row without pivoting;
 /// elsewhere, in steps so long that what they amplify is no longer small, with partial pivoting. Windows that reach
-/// once around are left to the sparse solver of Eigen. Nothing is allocated while the windows stay as wide as they are.
+/// once around are left to the sparse solver of Eigen, which is the slower one for all others: by a factor of 10 to 25
+/// with up to 64 neighbors on a side, of 3 where 150 of 320 particles are. Nothing is allocated while rows keep their
+/// widths.
 class ImplicitSolver {
  public:
   /// How systems are solved; tests compare the others with the last.

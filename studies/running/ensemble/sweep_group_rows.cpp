@@ -11,7 +11,7 @@ namespace acstudy {
 
 void SweepGroup::sweep_rows(Team& team, bool decay_alone) {
   const std::ptrdiff_t count = std::ssize(particles_.x), lanes = sweeps().lanes;
-  SweepRange range{particles_.x.at(0), delta_, particles_.inside(delta_), 0, count};
+  const SweepRange range{particles_.x.at(0), delta_, particles_.inside(delta_), 0, count};
   SweepRows rows;
   if (by_rows_) rows.decay = decay_.data();
   if (!decay_alone) {

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "solver/line/vector/clones.hpp"
+#include "solver/clones.hpp"
 
 #if defined(__GLIBC__) && defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 extern "C" {

@@ -31,4 +31,23 @@ struct RateMatrix {
   void end_row() { begin.push_back(std::ssize(value)); }
 };
 
+/// A matrix of rates for several rows at a time: blocks of as many as there are lanes, diagonal after diagonal, so that
+/// everything is read with unit stride.
+struct BandedMatrix {
+  struct Block {
+    std::ptrdiff_t begin;  ///< of its values
+    std::ptrdiff_t first;  ///< lowest offset from a row to a column
+    std::ptrdiff_t width;  ///< number of diagonals
+  };
+  std::ptrdiff_t lanes = 1;  ///< rows of a block
+  std::vector<Block> blocks;
+  std::vector<double> value;  ///< [diagonal][lane] of each block, zero where a row has nothing
+  std::ptrdiff_t reach = 0;   ///< largest offset from a row to a column, padding included
+
+  /// Zero rows, to be written to.
+  BandedMatrix() = default;
+  /// @param lanes  rows of a block
+  BandedMatrix(const RateMatrix& R, int lanes);
+};
+
 }  // namespace acstudy

@@ -35,8 +35,7 @@ bool has_panels(const Case& c) {
 
 /// What the sums over several particles at a time are not made for.
 bool asks_for_readable(const Case& c) {
-  return c.readable || c.scheme.program != nullptr || c.integrator->implicit() || c.scheme.control != nullptr ||
-         c.step.bound == StepRule::Bound::rows;
+  return c.readable || c.scheme.program != nullptr || c.scheme.control != nullptr;
 }
 
 /// Velocities at midpoints, which symmetric sums on moving particles need, have to be short trigonometric series, or
@@ -60,29 +59,33 @@ bool far_pays(const Plan& plan, bool both) {
   return SweepGroup::far_pays(*plan.c, plan.velocity->modes.has_value(), both);
 }
 
+bool is_implicit(const Plan& plan) { return plan.c->integrator->implicit(); }
+
 bool far_takes(const Plan& plan) {
-  return !asks_for_readable(*plan.c) && !plan.c->scene->standing() && far_pays(plan, false);
+  return !asks_for_readable(*plan.c) && !is_implicit(plan) && !plan.c->scene->standing() && far_pays(plan, false);
 }
 
 constexpr Form table[] = {
     {"command", [](const Plan& plan) { return plan.c->scheme.program != nullptr; }, false},
     {"vector with far sums", far_takes, true, true},
+    {"vector with implicit steps", [](const Plan& plan) { return is_implicit(plan) && vector_takes(plan); }, true},
     {"vector", vector_takes, true},
-    {"readable with implicit steps", [](const Plan& plan) { return plan.c->integrator->implicit(); }, false},
+    {"readable with implicit steps", is_implicit, false},
     {"readable", [](const Plan&) { return true; }, false}};
+
+std::string pairs_of(const Case& c) {
+  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model->number, c.scheme.kernel.label(), c.delta, c.mu);
+}
 
 /// What decides where particles are, and when.
 std::string particles_of(const Case& c) {
   const SceneText& text = c.scene->text();
-  const std::string bound =
-      c.step.bound == StepRule::Bound::none ? "" : fmt::format("|{:.17g}", c.step.safety * c.lemma_bound(1.0));
+  std::string bound;
+  if (c.step.bound == StepRule::Bound::lemma) bound = fmt::format("|{:.17g}", c.step.safety * c.lemma_bound(1.0));
+  if (c.step.bound == StepRule::Bound::rows) bound = fmt::format("|rows|{:.17g}|{}", c.step.safety, pairs_of(c));
   return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}{}|{}{:.17g}", text.period, text.T, text.c, text.b.value_or(""),
                      text.solution(), text.flow.value_or(""), c.integrator->name, c.N, c.steps, bound, c.start.label(),
                      c.start.smallest_gap);
-}
-
-std::string pairs_of(const Case& c) {
-  return fmt::format("{}|{}|{:.17g}|{:.17g}", c.scheme.model->number, c.scheme.kernel.label(), c.delta, c.mu);
 }
 
 /// The first form from `first` on that takes the case.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solver/line/vector/clones.hpp"
+#include "solver/clones.hpp"
 
 namespace acstudy {
 

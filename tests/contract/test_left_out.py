@@ -85,8 +85,8 @@ class LeftOut(ProgramTest):
             return re.findall(r"^  form: (.*)$", self.explain(edit(STUDY, *changes)), re.MULTILINE)
 
         self.assertEqual(form(), ["vector"])
-        self.assertEqual(form(("forward-euler", "sdirk2")), ["readable with implicit steps"])
-        self.assertEqual(form(('"h/4"', '"cfl"\nbound = "rows"')), ["readable"])
+        self.assertEqual(form(("forward-euler", "sdirk2")), ["vector with implicit steps"])
+        self.assertEqual(form(('"h/4"', '"cfl"\nbound = "rows"')), ["vector"])
         self.assertEqual(form(('"4*h"', '"1"'), ("[16, 32, 64]", "[64, 512, 2048]")),
                          ["vector up to N = 512, vector with far sums up to N = 2048"])
 

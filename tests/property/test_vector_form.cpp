@@ -99,6 +99,46 @@ Swept readable_rates(const Case& c, const std::vector<double>& x, const std::vec
   return swept;
 }
 
+/// U with U - scale (R U) = u, by the vector form.
+std::vector<double> swept_solution(const Case& c, const std::vector<double>& x, const std::vector<double>& u,
+                                   double scale, bool with_twin, int threads = 1) {
+  Team team(threads);
+  const VelocitySeries velocity(*c.scene);
+  SharedParticles particles(*c.scene, velocity, x,
+                            {.c_hat = true,
+                             .c_and_b = true,
+                             .b_prime = true,
+                             .midpoints = c.scheme.model == &model_two,
+                             .rows = true,
+                             .delta = c.delta},
+                            team);
+  particles.move(0.0);
+  SweepGroup group(c, particles, false);
+  SweptValues values{PeriodicArray(x.size()), PeriodicArray(), {}},
+      of_twin{PeriodicArray(x.size()), PeriodicArray(), {}};
+  std::copy(u.begin(), u.end(), values.u.values().begin());
+  group.add(c, values);
+  Case twin = c;
+  twin.scheme.nonlocal_divergence = !twin.scheme.nonlocal_divergence;
+  if (with_twin) group.add(twin, of_twin);
+  group.solve(team, scale);
+  REQUIRE(values.failure.empty());
+  return {values.u.values().begin(), values.u.values().end()};
+}
+
+/// The same by the readable form and a sparse solver.
+std::vector<double> readable_solution(const Case& c, const std::vector<double>& x, std::vector<double> u,
+                                      double scale) {
+  const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
+  scheme->place(placed(x, c.scene->period(), c.delta));
+  RateMatrix R;
+  scheme->rows()->matrix(R);
+  ImplicitSolver solver(ImplicitSolver::Method::sparse);
+  solver.factorize(R, scale);
+  solver.solve(u);
+  return u;
+}
+
 const KernelChoice all_kernels[] = {{"inverse"},
                                     {"cubic-spline"},
                                     {"power", 0.5},
@@ -141,6 +181,23 @@ TEST_CASE("The vector form has the readable form's rates and pairs, for random s
       const Swept swept = swept_rates(c, x, u, with_twin);
       CHECK(relative_gap(swept.rate, expected.rate) <= 1e-12);
       CHECK(swept.pairs == expected.pairs);
+    }
+  });
+}
+
+TEST_CASE("An implicit step in the vector form is that of the readable form, for random scenes, particles and kernels",
+          "[vector][implicit]") {
+  const Integrator* const implicit =
+      std::find_if(std::begin(integrators), std::end(integrators), std::mem_fn(&Integrator::implicit));
+  for_each_case([&](Case c, const std::vector<double>& x, const std::vector<double>& u) {
+    c.integrator = implicit;
+    // Within and beyond steps whose matrix is dominant.
+    for (const double scale : {0.01, 0.5}) {
+      CAPTURE(c.key(), scale);
+      const std::vector<double> expected = readable_solution(c, x, u, scale);
+      for (const bool with_twin : {false, true}) {
+        CHECK(relative_gap(swept_solution(c, x, u, scale, with_twin), expected) <= 1e-12);
+      }
     }
   });
 }
@@ -273,10 +330,15 @@ TEST_CASE("A case is run in the first form that takes it", "[vector]") {
     CHECK(form(c) == "vector with far sums");
     c.delta = 0.01 * scene->period();
     CHECK(form(c) == "vector");
+    c.step = {.bound = StepRule::Bound::rows, .safety = 0.5, .text = "cfl"};
+    CHECK(form(c) == "vector");
     c.integrator = std::find_if(std::begin(integrators), std::end(integrators), std::mem_fn(&Integrator::implicit));
+    CHECK(form(c) == "vector with implicit steps");
+    c.delta = 0.1 * scene->period();
+    CHECK(form(c) == "vector with implicit steps");
+    c.readable = true;
     CHECK(form(c) == "readable with implicit steps");
     c.integrator = &forward_euler;
-    c.readable = true;
     CHECK(form(c) == "readable");
   }
 }
@@ -310,7 +372,11 @@ TEST_CASE("Any number of threads gives bitwise the same rates", "[vector]") {
     const auto x = irregular_positions(N, scene->period(), 3);
     const auto u = irregular_values(N, 4);
     const Swept one = swept_rates(c, x, u, true, 1);
+    Case implicit = c;
+    implicit.integrator = &integrators[3];
+    const std::vector<double> solution = swept_solution(implicit, x, u, 0.1, true, 1);
     for (const int threads : {2, 3, 5}) {
+      CHECK(swept_solution(implicit, x, u, 0.1, true, threads) == solution);
       const Swept several = swept_rates(c, x, u, true, threads);
       CHECK(several.rate == one.rate);
       CHECK(several.pairs == one.pairs);
@@ -350,15 +416,14 @@ CaseResult result_of(Case c, bool readable, int threads = 1) {
 
 TEST_CASE("A run in the vector form ends where the readable one does, whatever the integrator, scene, source and start",
           "[vector]") {
-  std::vector<Integrator> explicit_ones(std::begin(integrators), std::end(integrators));
-  explicit_ones.insert(explicit_ones.end(), std::begin(test::general_tables), std::end(test::general_tables));
-  std::erase_if(explicit_ones, [](const Integrator& integrator) { return integrator.implicit(); });
+  std::vector<Integrator> all(std::begin(integrators), std::end(integrators));
+  all.insert(all.end(), std::begin(test::general_tables), std::end(test::general_tables));
   for (const char* const name : {"lee-du-2019", "standing-variable-velocity", "lagrangian"}) {
     const auto scene = named_scene(name);
-    for (const Integrator& integrator : explicit_ones) {
+    for (const Integrator& integrator : all) {
       for (const int model : {1, 2}) {
         for (const bool nonlocal : {false, true}) {
-          for (const bool by_lemma : {false, true}) {
+          for (const auto bound : {StepRule::Bound::none, StepRule::Bound::lemma, StepRule::Bound::rows}) {
             constexpr std::int64_t N = 50;
             const double h = scene->period() / N;
             Case c{.scene = scene,
@@ -373,9 +438,7 @@ TEST_CASE("A run in the vector form ends where the readable one does, whatever t
                    .dt = scene->T() / 100,
                    .steps = 100};
             c.start = {.kind = Start::Kind::jittered, .smallest_gap = 0.3, .seed = 2};
-            if (by_lemma && scene->max_relative_velocity() > 0.0) {
-              c.step = {.bound = StepRule::Bound::lemma, .safety = 0.5, .text = "cfl"};
-            }
+            if (scene->max_relative_velocity() > 0.0) c.step = {.bound = bound, .safety = 0.5, .text = "cfl"};
             CAPTURE(c.key());
             REQUIRE(plan(c).form->together);
             const CaseResult vector = result_of(c, false), readable = result_of(c, true);

@@ -94,20 +94,14 @@ struct SymmetricSweep {
   SweepScheme local, nonlocal;
 };
 
-/// A matrix of rates on particles that stand still: rows together as many at a time as there are lanes, diagonal after
-/// diagonal, so that everything is read with unit stride.
-struct BandedMatrix {
-  struct Block {
-    std::ptrdiff_t begin;  ///< of its values
-    std::ptrdiff_t first;  ///< lowest offset from a row to a column
-    std::ptrdiff_t width;  ///< number of diagonals
-  };
-  std::vector<Block> blocks;
-  std::vector<double> value;  ///< [diagonal][lane] of each block, zero where a row has nothing
-  std::ptrdiff_t reach = 0;   ///< largest offset from a row to a column, padding included
-
-  /// @param lanes  rows of a block
-  BandedMatrix(const RateMatrix& R, int lanes);
+/// Where the rows of the matrix of rates go, of which local and nonlocal divergence differ by the diagonal alone.
+struct SweepRows {
+  std::ptrdiff_t room = 0;                ///< offsets from a row to a column that there is room for on each side
+  BandedMatrix::Block* blocks = nullptr;  ///< gets first and width of each; null: rows are summed, not stored
+  double* value = nullptr;                ///< [2 room + 1][lane] for each block; the diagonal stays zero
+  double *own_local = nullptr, *own_nonlocal = nullptr;  ///< the diagonal, or null where it is not asked for
+  double* decay = nullptr;  ///< what a particle's own weight takes of its u; see KnowsItsRows. All [N] and up to the
+                            ///< next multiple of eight
 };
 
 /// constant + sum_n cosine_n cos(n w x) + sine_n sin(n w x), n = 1 .. highest.
@@ -123,6 +117,10 @@ struct Sweeps {
   int lanes;         ///< particles at a time
   std::int64_t (*upwind)(const SweepRange&, const UpwindSweep&);
   std::int64_t (*symmetric)(const SweepRange&, const SymmetricSweep&);
+  // The rows of the same; schemes of a sweep are not looked at. They return the largest offset: beyond the room that
+  // there is, entries are missing.
+  std::ptrdiff_t (*upwind_rows)(const SweepRange&, const UpwindSweep&, const SweepRows&);
+  std::ptrdiff_t (*symmetric_rows)(const SweepRange&, const SymmetricSweep&, const SweepRows&);
   /// rate = R u for blocks begin .. end - 1 of a BandedMatrix, u with ghosts.
   void (*banded)(const BandedMatrix::Block* blocks, const double* value, const double* u, double* rate,
                  std::ptrdiff_t begin, std::ptrdiff_t end);

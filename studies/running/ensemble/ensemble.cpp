@@ -76,6 +76,7 @@ class Ensemble {
       needs.phases |= m.source->is_series();
       // The side of a source is that of c_hat.
       needs.c_hat |= c->scheme.model->continuum->sided && m.source->is_series() && c->nonlocal_source;
+      needs.rows = c->integrator->implicit();
       needs.delta = std::max(needs.delta, c->delta);
     }
     particles_.emplace(scene_, *plans.front().velocity, start_positions(first_.start, count, scene_.period()), needs,
@@ -139,7 +140,6 @@ class Ensemble {
       ++n;
       for (std::size_t i = 1; i <= first_.integrator->stage_count(); ++i) {
         advance(i, step);
-        stages_done_ = i;
       }
       stages_done_ = 0;
     };
@@ -156,7 +156,7 @@ class Ensemble {
     // A case of adaptive steps is alone: it is the one whose error decides.
     Member& only = members_.front();
     step_to_end(
-        first_, [&](double t) { return lemma_bound(t); },
+        first_, [&](double t) { return bound(t); },
         StepActions{take, [&](double tolerance) { return only.error_over(tolerance); }, [&] { only.reject(); }},
         goes_on);
   }
@@ -208,30 +208,76 @@ class Ensemble {
     }
   }
 
-  /// Stage i, in as few passes over the particles as there are times that all must wait for each other: first what
-  /// each of them needs no neighbor for, then for each group its sums, from which its cases step on.
+  /// Stage i: its explicit part, and what is solved for.
   void advance(std::size_t i, const TimeStep& step) {
-    const double t = step.at(first_.integrator->c(i - 1));
+    const Integrator& integrator = *first_.integrator;
+    const std::size_t newest = i - 1;
+    for (Member& m : members_) m.start_stage();
+    if (integrator.diagonal(newest) == 0.0 && integrator.asks_for_rate(newest, newest)) {
+      advance_by_rates(i, step);
+    } else {
+      team_.each(std::ssize(particles_->x), 32,
+                 [&](const Piece& piece) { each_running([&](Member& m) { m.stage(i, step.dt, piece); }); });
+    }
+    each_running([&](Member& m) { m.accept(i); });
+    stages_done_ = i;
+    if (integrator.diagonal(i) != 0.0) solve(i, step);
+  }
+
+  /// In as few passes over the particles as there are times that all must wait for each other: first what each of them
+  /// needs no neighbor for, then for each group its sums, from which its cases step on.
+  void advance_by_rates(std::size_t i, const TimeStep& step) {
+    move(step.at(first_.integrator->c(i - 1)));
+    watch_bounds(step.dt);
+    for (const auto& group : groups_) {
+      if (group->empty()) continue;
+      group->rates(team_, [&](const Piece& piece) {
+        each_running([&](Member& m) {
+          if (m.group == group.get()) m.stage(i, step.dt, piece);
+        });
+      });
+    }
+  }
+
+  /// Particles, velocities and sources at time t.
+  void move(double t) {
     each_source([&](ParticleSource& source) { team_.timed(source.seconds, [&] { source.find_series(t); }); });
     particles_->move(t, [&](const Piece& piece, Laps& laps) {
       each_source([&](ParticleSource& source) { source.evaluate_series(*particles_, piece, laps); });
       for (const auto& group : groups_) group->prepare(piece, laps);
     });
-    watch_bounds(step.dt);
     each_source([&](ParticleSource& source) {
       team_.timed(source.seconds, [&] { source.evaluate_directly(t, *particles_); });
     });
-    for (Member& m : members_) m.start_stage();
+  }
+
+  /// The implicit part of stage i.
+  void solve(std::size_t i, const TimeStep& step) {
+    const double scale = first_.integrator->diagonal(i) * step.dt;
+    move(step.at(first_.integrator->c(i)));
+    const auto each_piece = [&](auto what) {
+      team_.each(std::ssize(particles_->x), 32,
+                 [&](const Piece& piece) { each_running([&](Member& m) { what(m, piece); }); });
+    };
+    each_piece([&](Member& m, const Piece& piece) { m.add_source(i, scale, piece); });
     for (const auto& group : groups_) {
-      if (group->empty()) continue;
-      group->rates(team_, [&](const Piece& piece) {
-        for (Member& m : members_) {
-          if (m.running && m.group == group.get()) m.stage(i, step.dt, piece);
-        }
-      });
+      if (!group->empty()) group->solve(team_, scale);
     }
+    each_running([&](Member& m) {
+      if (m.values.failure.empty()) return;
+      m.take_back(i);
+      m.result.failure = failure_in_step(std::domain_error(m.values.failure), m.result, m.t);
+      m.running = false;
+      m.group->remove(m.values);
+    });
+    for (Member& m : members_) m.start_stage();
+    each_piece([&](Member& m, const Piece& piece) { m.finish_solved(i, scale, piece); });
+  }
+
+  template <class Do>
+  void each_running(Do&& what) {
     for (Member& m : members_) {
-      if (m.running) m.accept(i);
+      if (m.running) what(m);
     }
   }
 
@@ -244,7 +290,9 @@ class Ensemble {
     }
   }
 
+  /// Compares steps with the bound of the lemma; there is none of implicit ones.
   void watch_bounds(double dt) {
+    if (first_.integrator->implicit()) return;
     const double gap = particles_->smallest_gap();
     for (Member& m : members_) {
       // Where the smallest gap is matters only to a step beyond the bound.
@@ -273,9 +321,10 @@ class Ensemble {
     return any;
   }
 
-  /// The bound of the lemma, the same for all cases, at the particles of time t.
-  double lemma_bound(double t) {
+  /// The bound that steps follow, the same for all cases, at the particles of time t.
+  double bound(double t) {
     particles_->move(t);
+    if (first_.step.bound == StepRule::Bound::rows) return 1.0 / groups_.front()->strongest_decay(team_);
     return members_.front().lemma_bound * particles_->smallest_gap();
   }
 

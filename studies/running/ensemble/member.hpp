@@ -3,6 +3,7 @@
 /// @file
 /// A case of an ensemble on its way.
 
+#include <algorithm>
 #include <optional>
 
 #include "solver/time/integrate.hpp"
@@ -28,6 +29,11 @@ struct Member {
   void stage(std::size_t i, double dt, const Piece& piece);
   /// Makes what stage i has given the state; after all pieces.
   void accept(std::size_t i);
+  // An implicit stage i goes on from there. At the particles of a piece: the source comes into the state, before it is
+  // solved for, with `scale` as its step;
+  void add_source(std::size_t i, double scale, const Piece& piece);
+  /// and then `largest`, the rate of the stage, if it is asked for, and what it has in the estimated error.
+  void finish_solved(std::size_t i, double scale, const Piece& piece);
   /// Puts back the state at the start of a step of which `stages_done` stages are done.
   void take_back(std::size_t stages_done) {
     if (stages_done > 0) std::swap(values.u, before());
@@ -41,14 +47,21 @@ struct Member {
   void reject() {
     take_back(c.integrator->stage_count());
     bound.take_back();
+    std::fill(values.rate.begin(), values.rate.end(), 0.0);  // stages multiply what they do not ask for by zero
     ++result.rejected;
   }
+
+  /// Adds what F_k, the rates of the piece and `f`, has in the estimated error of a step of length dt.
+  /// @param f  from the piece's first particle on
+  void estimate(std::size_t k, double dt, const double* f, const Piece& piece);
 
   const Case& c;
   CaseResult result;
   SweptValues values;
-  PeriodicArray next;  ///< what becomes of u
-  PeriodicArray u_n;   ///< at the start of the step, where there are several stages
+  PeriodicArray next;         ///< what becomes of u
+  PeriodicArray u_n;          ///< at the start of the step, where there are several stages
+  std::vector<double> right;  ///< of an implicit stage, where its rate is asked for
+  ZeroedVector no_source;     ///< for rates that have it already
   StageRegisters registers;
   SweepGroup* group = nullptr;
   ParticleSource* source = nullptr;

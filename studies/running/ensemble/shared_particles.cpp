@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "solver/line/vector/clones.hpp"
+#include "solver/clones.hpp"
 
 namespace acstudy {
 
@@ -235,7 +235,7 @@ void SharedParticles::fit_panels() {
 
 void SharedParticles::wrap_fields() {
   const std::ptrdiff_t reach = this->reach(needs_.delta), lanes = sweeps().lanes;
-  if (needs_.c_hat) c_hat.wrap(lanes);
+  if (needs_.c_hat) c_hat.wrap(needs_.rows ? reach : lanes);
   if (needs_.c_and_b) {
     b.wrap(reach);
     c.wrap(lanes);  // what a particle needs of itself alone is read up to the end of a vector

@@ -39,6 +39,7 @@ struct Needs {
   bool b_prime = false;    ///< (local divergence)
   bool midpoints = false;  ///< (Model II)
   bool phases = false;     ///< (sources that are series)
+  bool rows = false;       ///< (implicit steps)
   double delta = 0.0;      ///< the largest horizon
 };
 

@@ -1,10 +1,11 @@
 #include "studies/running/ensemble/sweep_group.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
+#include "solver/clones.hpp"
 #include "solver/line/far/far_sweeps.hpp"
-#include "solver/line/vector/clones.hpp"
 #include "studies/models/kernel_choice.hpp"
 #include "studies/models/scheme.hpp"
 
@@ -55,17 +56,27 @@ SweepGroup::SweepGroup(const Case& c, const SharedParticles& particles, bool far
       model_(c.scheme.model),
       delta_(c.delta),
       mu_(c.mu),
-      kernel_label_(c.scheme.kernel.label()) {
-  if (!c.scene->standing()) return;
+      kernel_label_(c.scheme.kernel.label()),
+      by_rows_(c.step.bound == StepRule::Bound::rows) {
+  const std::size_t of_rows = c.integrator->implicit() ? particles.size() + 16 : 0;
+  if (!c.scene->standing()) {
+    own_local_.resize(of_rows);
+    own_nonlocal_.resize(of_rows);
+    if (by_rows_) decay_.resize(particles.size() + 16);
+    room_ = static_cast<std::ptrdiff_t>(c.delta / c.h) + 2;
+    return;
+  }
   const std::unique_ptr<LineScheme> readable = make_scheme(c.scheme, *c.scene, c.mu);
   Particles at_rest(particles.size(), c.scene->period(), c.delta);
   at_rest.place(particles.x.values());
   readable->place(at_rest);
   RateMatrix R;
   readable->rows()->matrix(R);
+  strongest_decay_ = readable->rows()->strongest_decay();
   standing_ = std::make_unique<BandedMatrix>(R, sweeps().lanes);
   standing_pairs_ = std::ssize(R.value) - std::ssize(particles.x);
   work_.weight_builds = 1;
+  if (of_rows > 0) standing_entries_ = std::move(R);
 }
 
 bool SweepGroup::far_pays(const Case& c, bool modes, bool both) {

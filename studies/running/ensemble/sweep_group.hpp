@@ -8,6 +8,7 @@
 #include <span>
 
 #include "solver/line/vector/sweeps.hpp"
+#include "solver/time/implicit.hpp"
 #include "solver/velocity.hpp"
 #include "studies/cases/case.hpp"
 #include "studies/running/ensemble/shared_particles.hpp"
@@ -19,6 +20,9 @@ struct SweptValues {
   PeriodicArray u;
   PeriodicArray flux;  ///< c_hat u, of Model I on moving particles
   ZeroedVector rate;   ///< [N] and the rest of a vector
+  ImplicitSolver solver = {};
+  double factorized_for = 0.0;  ///< the scale, where particles stand still; 0: for none
+  std::string failure = {};     ///< of the last solve()
 };
 
 class SweepGroup {
@@ -53,6 +57,13 @@ class SweepGroup {
   /// rate = rate(u) of every case. The particles must be where they are meant to be.
   void rates(Team& team, const AndThen& and_then);
 
+  /// u <- U with U - scale rate(U) = u, of every case that does not fail.  The particles must be where they are meant
+  /// to be.
+  void solve(Team& team, double scale);
+
+  /// One over the largest step that rows allow at the particles where they are; see KnowsItsRows.
+  double strongest_decay(Team& team);
+
   /// Pair interactions and weight builds of each of the group's cases so far.
   const WorkCounts& work() const { return work_; }
 
@@ -64,6 +75,8 @@ class SweepGroup {
   SymmetricSweep symmetric_sweep(const SweepScheme& local, const SweepScheme& nonlocal) const;
   void sweep_moving(Team& team, const AndThen& and_then);
   void sweep_standing(Team& team, const AndThen& and_then);
+  /// Assembles the rows, or no more than their decay.
+  void sweep_rows(Team& team, bool decay_alone);
 
   const SharedParticles& particles_;
   bool far_;
@@ -73,7 +86,15 @@ class SweepGroup {
   std::string kernel_label_;
   SweptValues *local_ = nullptr, *nonlocal_ = nullptr;
   std::unique_ptr<BandedMatrix> standing_;  ///< where particles stand still
+  RateMatrix standing_entries_;             ///< the same, for implicit steps
   std::int64_t standing_pairs_ = 0;
+  BandedMatrix rows_;  ///< where particles move and steps are implicit; but for the diagonal,
+  std::ptrdiff_t room_ = 0;
+  ZeroedVector own_local_, own_nonlocal_;  ///< which is here
+  bool by_rows_;                           ///< steps follow the rows
+  ZeroedVector decay_;
+  double strongest_decay_ = 0.0;
+  std::int64_t decay_known_for_ = -1;  ///< the move of the particles after which it was found
   WorkCounts work_;
 };
 

@@ -58,7 +58,7 @@ mutants:  ## tests the tests: each mistake planted in a copy of the sources has 
 		[ $$status -ne 0 ] || status=4; fi; exit $$status
 
 # Those that step in several ways. That some of these blow up (3) is part of the answer.
-way_studies = $(wildcard studies/bench/stiff-*.toml)
+way_studies = $(wildcard studies/bench/stiff-*-timed.toml)
 
 bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some 10 minutes)
 	@echo "acstudy: some 10 minutes, in which the machine should do nothing else"

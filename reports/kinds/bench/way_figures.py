@@ -49,7 +49,8 @@ def scene_figure(groups):
         every = [way for ways in groups.values() for way in ways.values()]
         shown = list(dict.fromkeys(way.name for way in every))
         integrators = list(dict.fromkeys(map(_integrator, shown)))
-        styles = {name: _style(integrators.index(_integrator(name)), RULES.index(name.rpartition(", ")[2])) for name in shown}
+        styles = {name: _style(integrators.index(_integrator(name)), RULES.index(name.rpartition(", ")[2]))
+                  for name in shown}
         left, right, gap, above, between, tall = 0.85, 0.1, 0.16, 0.5, 0.3, 2.6
         foot = 0.75 + math.ceil((len(shown) + 1) / 2) * LINE * 1.6
         width = min(4.0, (WIDTH - left - right - (len(schemes) - 1) * gap) / len(schemes))
@@ -59,8 +60,8 @@ def scene_figure(groups):
                               for values in (np.concatenate([one[i] for one in drawn]) for i in (0, 1)))
         for (path, scheme), ways in groups.items():
             i, k = paths.index(path), schemes.index(scheme)
-            panel = add_axes(figure, left + k * (width + gap), figure.get_figheight() - above - (i + 1) * tall - i * between,
-                             width, tall, xscale="log", yscale="log")
+            bottom = figure.get_figheight() - above - (i + 1) * tall - i * between
+            panel = add_axes(figure, left + k * (width + gap), bottom, width, tall, xscale="log", yscale="log")
             for way in ways.values():
                 _draw(panel, way.efficient(), styles[way.name], path)
             whole = [axes.drawable(way.seconds.median, way.error) for way in ways.values()]

@@ -62,8 +62,9 @@ def stepped(curve):
 
 def way_of(curve):
     """How it steps, whatever the length of equal steps or the tolerance of adaptive ones."""
-    rule = ("adaptive" if curve.step_text.startswith("adaptive") else "by rows" if curve.step_text.endswith("by rows") else
-            "by the lemma" if curve.step_text.endswith("cfl") else "equal steps")
+    text = curve.step_text
+    rule = ("adaptive" if text.startswith("adaptive") else "by rows" if text.endswith("by rows") else
+            "by the lemma" if text.endswith("cfl") else "equal steps")
     return f"{curve.integrator}, {rule}"
 
 
@@ -73,7 +74,8 @@ def _way(name, curves):
 
     return Way(name, tuple(curve.step_text for curve in curves for _ in range(len(curve))), joined(lambda c: c.N),
                joined(lambda c: c.steps), joined(lambda c: c.error),
-               Spread(*(joined(lambda c, part=part: getattr(c.seconds, part)) for part in ("median", "minimum", "deviation"))))
+               Spread(*(joined(lambda c, part=part: getattr(c.seconds, part))
+                        for part in ("median", "minimum", "deviation"))))
 
 
 def reach(way, target):
@@ -128,8 +130,8 @@ _REACHED = {"between": "{}", "coarsest": "< {}", "not": "–"}
 
 def _cost_table(every):
     """A row per scene, path and scheme, a column per way whose steps all are of the same kind."""
-    shown = [name for name in dict.fromkeys(name for groups in every.values() for ways in groups.values() for name in ways)
-             if not name.endswith("adaptive")]
+    names_of_ways = (name for groups in every.values() for ways in groups.values() for name in ways)
+    shown = [name for name in dict.fromkeys(names_of_ways) if not name.endswith("adaptive")]
     rows = []
     for title, groups in every.items():
         for (path, scheme), ways in groups.items():

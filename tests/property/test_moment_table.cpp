@@ -46,7 +46,6 @@ TEST_CASE("a table has the moments of every kernel to some units in the last pla
     if (!row.parameter) kernels.push_back({std::string(row.name)});
   }
   kernels.push_back(KernelChoice::written({.text = "exp(-s)", .exponent = 0.7}));
-  kernels.push_back(KernelChoice::written({.text = "sqrt(1-s)"}));
   for (const KernelChoice& kernel : kernels) {
     INFO(kernel.label());
     for_each_moment(kernel, [](const std::function<double(double)>& moment, std::span<const double> corners) {

@@ -72,7 +72,9 @@ class TableLanes {
  public:
   explicit TableLanes(const SweepKernel& kernel) : kernel_(kernel), table_(kernel.moments) {}
 
-  /// Ends of the current piece, in units of the horizon.
+  /// The current piece is a polynomial.
+  bool goes_inside() const { return piece_ > 0 || table_.power >= 0; }
+  /// Its ends, in units of the horizon.
   double begin() const { return table_.bounds[piece_]; }
   double end() const { return table_.bounds[piece_ + 1]; }
 
@@ -90,7 +92,7 @@ class TableLanes {
   /// Anywhere: the piece of the nearest lane becomes the current one.
   template <KernelPiece piece>
   ACSTUDY_ALWAYS_INLINE inline Lanes within(Lanes z) {
-    if constexpr (piece == KernelPiece::inside) return on(piece_, z);
+    if constexpr (piece == KernelPiece::inside) return polynomial(piece_, z);
     const std::ptrdiff_t last = table_.pieces - 1;
     while (piece_ > 0 && !all_at_most(spread(begin()), z)) --piece_;
     while (piece_ < last && all_at_most(spread(end()), z)) ++piece_;
@@ -105,13 +107,67 @@ class TableLanes {
 
   /// MomentTable::at() of all lanes.
   ACSTUDY_ALWAYS_INLINE inline Lanes on(std::ptrdiff_t piece, Lanes z) const {
-    if (piece == 0 && table_.power < 0) return one_by_one(z);
+    return piece == 0 && table_.power < 0 ? one_by_one(z) : polynomial(piece, z);
+  }
+  ACSTUDY_ALWAYS_INLINE inline Lanes polynomial(std::ptrdiff_t piece, Lanes z) const {
     const double* const c = table_.coefficient + piece * MomentTable::most_terms;
     const Lanes t = z - table_.origin[piece];
     std::ptrdiff_t k = table_.terms[piece] - 1;
     Lanes value = spread(c[k]);
-    for (; k > 0; --k) value = value * t + c[k - 1];
-    for (int i = 0; i < table_.power && piece == 0; ++i) value *= z;
+    // Horner's rule, entered where the coefficients begin: a loop costs more than its steps.
+    switch (k) {
+      case 15:
+        value = value * t + c[14];
+        [[fallthrough]];
+      case 14:
+        value = value * t + c[13];
+        [[fallthrough]];
+      case 13:
+        value = value * t + c[12];
+        [[fallthrough]];
+      case 12:
+        value = value * t + c[11];
+        [[fallthrough]];
+      case 11:
+        value = value * t + c[10];
+        [[fallthrough]];
+      case 10:
+        value = value * t + c[9];
+        [[fallthrough]];
+      case 9:
+        value = value * t + c[8];
+        [[fallthrough]];
+      case 8:
+        value = value * t + c[7];
+        [[fallthrough]];
+      case 7:
+        value = value * t + c[6];
+        [[fallthrough]];
+      case 6:
+        value = value * t + c[5];
+        [[fallthrough]];
+      case 5:
+        value = value * t + c[4];
+        [[fallthrough]];
+      case 4:
+        value = value * t + c[3];
+        [[fallthrough]];
+      case 3:
+        value = value * t + c[2];
+        [[fallthrough]];
+      case 2:
+        value = value * t + c[1];
+        [[fallthrough]];
+      case 1:
+        value = value * t + c[0];
+        [[fallthrough]];
+      default:
+        break;
+    }
+    if (piece > 0) return value;
+    if ((table_.power & 1) != 0) value *= z;
+    if ((table_.power & 2) != 0) value *= z * z;
+    for (int i = 4; i <= table_.power; i += 4) value *= z * z * (z * z);
     return value;
   }
 
@@ -123,7 +179,7 @@ class TableLanes {
   }
 
   const SweepKernel& kernel_;
-  const MomentTable::View& table_;
+  const MomentTable::View table_;
   std::ptrdiff_t piece_ = 0;
 };
 

@@ -74,7 +74,7 @@ class Tabulation {
     long double dropped = 0.0L;
     for (int k = nodes - 1; k > 0; --k) {
       dropped += std::abs(c[k]);
-      if (dropped > 0x1p-49L * least) break;
+      if (dropped > 0x1p-48L * least) break;
       c[k] = 0.0L;
     }
     return in_powers(c, half);
@@ -93,7 +93,7 @@ class Tabulation {
       const double z = begin + (end - begin) * 0.5 * (1.0 - std::cos(std::numbers::pi * i / (2 * nodes)));
       if (z == 0.0) continue;
       const double exact = moment_(z);
-      if (std::abs(table_.at(piece, z) - exact) <= 0x1p-48 * exact + floor_) continue;
+      if (std::abs(table_.at(piece, z) - exact) <= 0x1p-47 * exact + floor_) continue;
       table_.bounds.pop_back();
       table_.origin.pop_back();
       table_.terms.pop_back();
@@ -115,8 +115,7 @@ double MomentTable::at(std::size_t piece, double z) const {
   const double t = z - origin[piece];
   double value = 0.0;
   for (std::ptrdiff_t k = terms[piece]; k-- > 0;) value = value * t + c[k];
-  for (int i = 0; i < power && piece == 0; ++i) value *= z;
-  return value;
+  return piece == 0 ? value * std::pow(z, power) : value;
 }
 
 MomentTable moment_table(const std::function<double(double)>& moment, std::span<const double> breaks) {

@@ -96,7 +96,7 @@ ACSTUDY_ALWAYS_INLINE inline void walk(const K& kernel, const Add& add, Sides&..
   };
   if constexpr (std::is_same_v<K, TableLanes>) {
     while ((sides.goes_on() && ...)) {
-      if ((sides.begins_beyond(kernel.begin()) && ...)) {
+      if (kernel.goes_inside() && (sides.begins_beyond(kernel.begin()) && ...)) {
         while ((sides.ends_before(kernel.end()) && ...)) each.template operator()<KernelPiece::inside>();
       }
       each.template operator()<KernelPiece::any>();

@@ -75,7 +75,7 @@ compare: build  ## the same cases in NumPy, Octave and PySPH, error by error and
 	"$$python" scripts/compare/compare.py $(COMPARE) --acstudy "$(BUILD)/acstudy" --out "$(OUT)/compare" || exit; \
 	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$python" reports/report.py "$(OUT)"; fi
 
-deep: build  ## figures 1 and 3 to N = 20480, the path sqrt(h) to N = 40960, what the finest errors are made of (some 5 minutes)
+deep: build  ## figures 1 and 3 to N = 20480, the path sqrt(h) to N = 40960, what the finest errors are made of (some 6 minutes)
 	@$(acstudy) run studies/deep/*.toml --out "$(OUT)/deep" --jobs $(JOBS)
 	$(setup) report
 	@"$$(scripts/find-python.sh)" reports/report.py "$(OUT)/deep"

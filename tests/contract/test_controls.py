@@ -63,7 +63,7 @@ STUDIES = {
     "controls with several ways to step": (
         edit(TINY, ("[time]", "@[[time]]")).replace(
             '[[path]]\nname', '[[time]]\nintegrator = "ssprk2"\nstep = "h"\n\n[[path]]\nname', 1),
-        "a study of this kind steps in one way; leave one [[time]]"),
+        "a study of this kind steps in one way; leave one [[time]], and one tolerance where steps are adaptive"),
     "controls that expect something of their steps": (
         edit(TINY, ('[time]', '@[time]'), ('step = "h/8"', 'step = "h/8"\nexpect = "stable"')),
         "a study of this kind expects nothing of a way to step; leave expect out of it"),

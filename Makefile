@@ -60,8 +60,8 @@ mutants:  ## tests the tests: each mistake planted in a copy of the sources has 
 # Those that step in several ways. That some of these blow up (3) is part of the answer.
 way_studies = $(wildcard studies/bench/stiff-*-timed.toml)
 
-bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some 10 minutes)
-	@echo "acstudy: some 10 minutes, in which the machine should do nothing else"
+bench: build  ## error against run time: times every case alone, in turn, prints the tables, draws (some 12 minutes)
+	@echo "acstudy: some 12 minutes, in which the machine should do nothing else"
 	@$(acstudy) bench $(bench_studies) --out "$(OUT)/bench" --fresh
 	@$(acstudy) bench studies/bench/scaling-threads.toml --threads $(THREADS) --out "$(OUT)/bench-threads" --fresh
 	@$(acstudy) bench $(way_studies) --runs 2 --least-seconds 0.1 --out "$(OUT)/bench-stiff" --fresh || [ $$? -eq 3 ]

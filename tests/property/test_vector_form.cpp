@@ -415,7 +415,7 @@ CaseResult result_of(Case c, bool readable, int threads = 1) {
 }  // namespace
 
 TEST_CASE("A run in the vector form ends where the readable one does, whatever the integrator, scene, source and start",
-          "[vector]") {
+          "[vector][runs]") {
   std::vector<Integrator> all(std::begin(integrators), std::end(integrators));
   all.insert(all.end(), std::begin(test::general_tables), std::end(test::general_tables));
   for (const char* const name : {"lee-du-2019", "standing-variable-velocity", "lagrangian"}) {

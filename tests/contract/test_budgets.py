@@ -48,8 +48,9 @@ class Forecasts(ProgramTest):
     def test_a_prediction_is_of_the_size_of_what_is_measured(self):
         text = edit(STUDY, (LEVELS, "[640, 1280, 2560]"))
         predicted = self.plan(text)["studies"][0]["seconds"]
-        self.run_study(text, "--repeats", "3", expect=0)
-        measured = sum(case["seconds"] for case in self.result()["series"][0]["cases"])
+        # The lowest of many: what else runs at the same time is not predicted.
+        self.run_study(text, "--repeats", "25", "--jobs", "1", expect=0)
+        measured = sum(case["seconds_low"] for case in self.result()["series"][0]["cases"])
         self.assertLess(predicted, 10 * measured)
         self.assertGreater(predicted, measured / 10)
 

@@ -51,8 +51,8 @@ inline Lanes spread(double value) { return value - Lanes{}; }
 
 inline constexpr unsigned all_bits = (1U << lane_count) - 1;
 
-// Which lanes something holds for, a choice by it, and the smaller and the larger, of which GCC makes a comparison and
-// a choice unless it is told.
+// Which lanes something holds for, a choice by it, the smaller and the larger, of which GCC makes a comparison and a
+// choice unless it is told, and square roots.
 #if defined(__AVX512F__)
 using Choice = __mmask8;
 inline Choice at_most(Lanes a, Lanes b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ); }
@@ -60,6 +60,7 @@ inline Lanes select(Choice c, Lanes a, Lanes b) { return (Lanes)_mm512_mask_blen
 inline unsigned bits(Choice c) { return c; }
 inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm512_maskz_min_pd(all_bits, (__m512d)a, (__m512d)b); }
 inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm512_maskz_max_pd(all_bits, (__m512d)a, (__m512d)b); }
+inline Lanes sqrt(Lanes a) { return (Lanes)_mm512_maskz_sqrt_pd(all_bits, (__m512d)a); }
 #else
 using Choice = Mask;
 inline Choice at_most(Lanes a, Lanes b) { return a <= b; }
@@ -68,14 +69,17 @@ inline Lanes select(Choice c, Lanes a, Lanes b) { return c ? a : b; }
 inline unsigned bits(Choice c) { return static_cast<unsigned>(_mm256_movemask_pd((__m256d)c)); }
 inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm256_min_pd((__m256d)a, (__m256d)b); }
 inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm256_max_pd((__m256d)a, (__m256d)b); }
+inline Lanes sqrt(Lanes a) { return (Lanes)_mm256_sqrt_pd((__m256d)a); }
 #elif defined(__SSE2__)
 inline unsigned bits(Choice c) { return static_cast<unsigned>(_mm_movemask_pd((__m128d)c)); }
 inline Lanes min(Lanes a, Lanes b) { return (Lanes)_mm_min_pd((__m128d)a, (__m128d)b); }
 inline Lanes max(Lanes a, Lanes b) { return (Lanes)_mm_max_pd((__m128d)a, (__m128d)b); }
+inline Lanes sqrt(Lanes a) { return (Lanes)_mm_sqrt_pd((__m128d)a); }
 #else
 inline unsigned bits(Choice c) { return static_cast<unsigned>((c[0] & 1) | (c[1] & 2)); }
 inline Lanes min(Lanes a, Lanes b) { return a < b ? a : b; }
 inline Lanes max(Lanes a, Lanes b) { return a > b ? a : b; }
+inline Lanes sqrt(Lanes a) { return Lanes{__builtin_sqrt(a[0]), __builtin_sqrt(a[1])}; }
 #endif
 #endif
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -11,16 +10,16 @@ namespace acstudy {
 
 namespace {
 
-constexpr int nodes = MomentTable::most_terms;
-using Coefficients = std::array<long double, nodes>;
+constexpr int most = MomentTable::most_terms;
+using Coefficients = std::array<long double, most>;
 
-/// sum_k c_k T_k(t / half), as coefficients of powers of t.
-Coefficients in_powers(const Coefficients& c, long double half) {
+/// sum_k c_k T_k(t / half), k < terms, as coefficients of powers of t.
+Coefficients in_powers(const Coefficients& c, int terms, long double half) {
   Coefficients before{1.0L}, now{0.0L, 1.0L / half}, sum{c[0]};
-  for (int k = 1; k < nodes; ++k) {
+  for (int k = 1; k < terms; ++k) {
     for (int i = 0; i <= k; ++i) sum[i] += c[k] * now[i];
     Coefficients next{};
-    for (int i = 0; i < nodes; ++i) next[i] = (i > 0 ? 2.0L * now[i - 1] / half : 0.0L) - before[i];
+    for (int i = 0; i < terms; ++i) next[i] = (i > 0 ? 2.0L * now[i - 1] / half : 0.0L) - before[i];
     before = std::exchange(now, next);
   }
   return sum;
@@ -28,18 +27,21 @@ Coefficients in_powers(const Coefficients& c, long double half) {
 
 class Tabulation {
  public:
-  explicit Tabulation(const std::function<double(double)>& moment) : moment_(moment), floor_(0x1p-60 * moment(1.0)) {
+  Tabulation(const std::function<double(double)>& moment, bool squared)
+      : moment_(moment), floor_(0x1p-110 * moment(1.0)) {
     constexpr double near = 0x1p-30;
     const double order = std::log2(moment(2.0 * near) / moment(near));
-    const bool whole = std::abs(order - std::round(order)) < 1e-6 && order < 12.5;
-    table_.power = whole ? static_cast<int>(std::round(order)) : -1;
+    const int halves = static_cast<int>(std::round(2.0 * order));
+    const bool whole = std::abs(2.0 * order - halves) < 1e-6 && order < 12.5;
+    table_.power = whole ? halves / 2 : -1;
+    table_.root = whole && halves % 2 != 0;
+    table_.squared = squared;
   }
 
   MomentTable of(std::span<const double> breaks) {
     double begin = 0.0;
     for (const double end : breaks) cut(std::exchange(begin, end), end);
     cut(begin, 1.0);
-    table_.bounds.push_back(1.0);
     return std::move(table_);
   }
 
@@ -48,78 +50,68 @@ class Tabulation {
   static constexpr double close = 0x1p-12;
 
   void cut(double begin, double end) {
-    const bool any_power = begin == 0.0 && table_.power < 0;
-    if (any_power ? end <= close && add(begin, end, {}, true)
-                  : add(begin, end, fit(begin, end), end - begin < 0x1p-40)) {
-      return;
+    if (begin == 0.0 && table_.power < 0) {
+      if (end <= close) return table_.pieces.push_back({begin, end, 0.0, 1, {}});
+    } else {
+      const bool short_enough = end - begin < 0x1p-40;
+      for (int terms = short_enough ? most : 1; terms <= most; terms += terms == 1 ? 1 : 2) {
+        const MomentTable::Piece piece = fit(begin, end, terms);
+        if (short_enough || is_good(piece)) return table_.pieces.push_back(piece);
+      }
     }
     const double middle = 0.5 * (begin + end);
     cut(begin, middle);
     cut(middle, end);
   }
 
-  /// The polynomial through the moment at Chebyshev's points, less what is below its last digit.
-  Coefficients fit(double begin, double end) const {
-    const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin);
+  /// The polynomial through the moment at Chebyshev's points.
+  MomentTable::Piece fit(double begin, double end, int terms) const {
+    const double from = variable(begin), to = variable(end), middle = 0.5 * (from + to), half = 0.5 * (to - from);
     Coefficients c{};
-    long double least = std::numeric_limits<long double>::infinity();
-    for (int i = 0; i < nodes; ++i) {
-      const long double angle = std::numbers::pi_v<long double> * (i + 0.5L) / nodes;
-      const double z = middle + half * static_cast<double>(std::cos(angle));
-      const long double value =
-          moment_(z) / (begin == 0.0 ? std::pow(static_cast<long double>(z), table_.power) : 1.0L);
-      least = std::min(least, value);
-      for (int k = 0; k < nodes; ++k) c[k] += value * std::cos(k * angle) * (k == 0 ? 1.0L : 2.0L) / nodes;
+    for (int i = 0; i < terms; ++i) {
+      const long double angle = std::numbers::pi_v<long double> * (i + 0.5L) / terms;
+      const double t = middle + half * static_cast<double>(std::cos(angle)), z = table_.squared ? std::sqrt(t) : t;
+      const long double value = moment_(z) / (begin == 0.0 ? table_.factor(static_cast<long double>(z)) : 1.0L);
+      for (int k = 0; k < terms; ++k) c[k] += value * std::cos(k * angle) * (k == 0 ? 1.0L : 2.0L) / terms;
     }
-    long double dropped = 0.0L;
-    for (int k = nodes - 1; k > 0; --k) {
-      dropped += std::abs(c[k]);
-      if (dropped > 0x1p-48L * least) break;
-      c[k] = 0.0L;
-    }
-    return in_powers(c, half);
+    MomentTable::Piece piece{begin, end, middle, terms, {}};
+    std::ranges::copy(in_powers(c, terms, half), piece.coefficient);
+    return piece;
   }
 
-  /// Adds it as the last piece; takes it away again if it is not the moment but for some units in the last place.
-  bool add(double begin, double end, const Coefficients& c, bool whatever) {
-    const std::size_t piece = table_.origin.size();
-    table_.bounds.push_back(begin);
-    table_.origin.push_back(0.5 * (begin + end));
-    std::ptrdiff_t terms = nodes;
-    while (terms > 1 && c[terms - 1] == 0.0L) --terms;
-    table_.terms.push_back(terms);
-    for (const long double each : c) table_.coefficient.push_back(static_cast<double>(each));
-    for (int i = 0; i <= 2 * nodes && !whatever; ++i) {
-      const double z = begin + (end - begin) * 0.5 * (1.0 - std::cos(std::numbers::pi * i / (2 * nodes)));
+  /// It is the moment but for some units in the last place.
+  bool is_good(const MomentTable::Piece& piece) const {
+    for (int i = 0; i <= 2 * most; ++i) {
+      const double z =
+          piece.begin + (piece.end - piece.begin) * 0.5 * (1.0 - std::cos(std::numbers::pi * i / (2 * most)));
       if (z == 0.0) continue;
       const double exact = moment_(z);
-      if (std::abs(table_.at(piece, z) - exact) <= 0x1p-47 * exact + floor_) continue;
-      table_.bounds.pop_back();
-      table_.origin.pop_back();
-      table_.terms.pop_back();
-      table_.coefficient.resize(table_.coefficient.size() - nodes);
-      return false;
+      if (!(std::abs(table_.at(piece, z) - exact) <= 0x1p-48 * exact + floor_)) return false;
     }
     return true;
   }
 
+  double variable(double z) const { return table_.squared ? z * z : z; }
+
   const std::function<double(double)>& moment_;
-  double floor_;  ///< no digits are asked of what is nothing beside the whole, even divided by a distance
+  double floor_;  ///< far below what a cell weighs, even divided by its distance
   MomentTable table_;
 };
 
 }  // namespace
 
-double MomentTable::at(std::size_t piece, double z) const {
-  const double* const c = coefficient.data() + piece * most_terms;
-  const double t = z - origin[piece];
+double MomentTable::at(const Piece& piece, double z) const {
+  const double t = (squared ? z * z : z) - piece.origin;
   double value = 0.0;
-  for (std::ptrdiff_t k = terms[piece]; k-- > 0;) value = value * t + c[k];
-  return piece == 0 ? value * std::pow(z, power) : value;
+  for (std::ptrdiff_t k = piece.terms; k-- > 0;) value = value * t + piece.coefficient[k];
+  return piece.begin == 0.0 ? value * factor(z) : value;
 }
 
 MomentTable moment_table(const std::function<double(double)>& moment, std::span<const double> breaks) {
-  return Tabulation(moment).of(breaks);
+  MomentTable table = Tabulation(moment, false).of(breaks);
+  if (table.power < 0 || table.pieces.size() == breaks.size() + 1) return table;
+  MomentTable squared = Tabulation(moment, true).of(breaks);
+  return squared.pieces.size() < table.pieces.size() ? squared : table;
 }
 
 }  // namespace acstudy

@@ -94,10 +94,9 @@ class UpwindRows {
   template <int s>
   ACSTUDY_NEVER_INLINE Sums side(std::ptrdiff_t j, Lanes inside, const RowBlock& block, Choice looks_right) const {
     const Viewpoint from{load(range_.x + j), inside, range_.delta, 1.0 / range_.delta};
-    Side<s> there(range_.x + j, from, all_bits);
-    K kernel = kernel_;
+    Side<s, K> there(range_.x + j, from, all_bits, kernel_);
     const auto first_moment = [&]<KernelPiece piece>(Lanes z)
-                                  ACSTUDY_ALWAYS_INLINE { return kernel.template first_moment<piece>(z); };
+                                  ACSTUDY_ALWAYS_INLINE { return kernel_.template first_moment<piece>(z); };
     const bool with_b = rows_.own_nonlocal != nullptr;
     constexpr double sign = s;
     Sums sum;
@@ -132,8 +131,8 @@ class SymmetricRows {
     std::ptrdiff_t widest = 0;
     for (std::ptrdiff_t j = range_.begin; j < range_.end; j += lane_count) {
       const Viewpoint from{load(range_.x + j), spread(range_.inside), range_.delta, 1.0 / range_.delta};
-      Side<+1> left(range_.x + j, from, all_bits);
-      Side<-1> right(range_.x + j, from, all_bits);
+      Side<+1, K> left(range_.x + j, from, all_bits, kernel_);
+      Side<-1, K> right(range_.x + j, from, all_bits, kernel_);
       const Lanes reach = max(spread(range_.delta), max(left.neighbor().distance, right.neighbor().distance));
       const Lanes viscosity = sweep_.mu * reach;
       const Midpoints midpoints(sweep_, j);
@@ -166,10 +165,9 @@ class SymmetricRows {
   };
 
   template <int s>
-  ACSTUDY_NEVER_INLINE void walk(Side<s>& side, std::ptrdiff_t j, Lanes viscosity, const Midpoints& midpoints,
+  ACSTUDY_NEVER_INLINE void walk(Side<s, K>& side, std::ptrdiff_t j, Lanes viscosity, const Midpoints& midpoints,
                                  const RowBlock& block, Sums& sums) const {
-    K kernel = kernel_;
-    const auto mass = [&]<KernelPiece piece>(Lanes z) ACSTUDY_ALWAYS_INLINE { return kernel.template mass<piece>(z); };
+    const auto mass = [&]<KernelPiece piece>(Lanes z) ACSTUDY_ALWAYS_INLINE { return kernel_.template mass<piece>(z); };
     constexpr double sign = -s;  // of k
     Sums sum = sums;
     while (side.goes_on()) {

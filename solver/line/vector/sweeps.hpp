@@ -32,7 +32,11 @@ struct SweepScheme {
   double* rate = nullptr;        ///< [N] and up to the next multiple of eight
 };
 
-/// Particles of a sweep: begin .. end - 1, begin a multiple of eight. All arrays are readable at the windows' ghosts.
+/// Neighbors whose moments are looked up together: so many beyond the first one after its window are read.
+inline constexpr std::ptrdiff_t looked_ahead = 4;
+
+/// Particles of a sweep: begin .. end - 1, begin a multiple of eight. All arrays are readable at the windows' ghosts
+/// and as far beyond as a sweep looks ahead; what is there is finite.
 struct SweepRange {
   const double* x;
   double delta, inside;

@@ -30,17 +30,16 @@ class Symmetric {
     for (std::ptrdiff_t j = range_.begin; j < range_.end; j += lane_count) {
       const unsigned counted = first_lanes(range_.end - j);
       const Viewpoint from{load(range_.x + j), spread(range_.inside), range_.delta, 1.0 / range_.delta};
-      Side<+1> left(range_.x + j, from, counted);
-      Side<-1> right(range_.x + j, from, counted);
+      Side<+1, K> left(range_.x + j, from, counted, kernel_);
+      Side<-1, K> right(range_.x + j, from, counted, kernel_);
       // A neighbor that ties with the horizon stands at it: only the nearest may be beyond.
       const Lanes reach = max(spread(range_.delta), max(left.neighbor().distance, right.neighbor().distance));
       const Lanes viscosity = sweep_.mu * reach;
       const Midpoints midpoints(sweep_, j);
       SymmetricSums sum;
-      K kernel = kernel_;
       const auto mass = [&]<KernelPiece piece>(Lanes z)
-                            ACSTUDY_ALWAYS_INLINE { return kernel.template mass<piece>(z); };
-      const auto add = [&]<KernelPiece piece, int s>(Side<s>& side) ACSTUDY_ALWAYS_INLINE {
+                            ACSTUDY_ALWAYS_INLINE { return kernel_.template mass<piece>(z); };
+      const auto add = [&]<KernelPiece piece, int s>(Side<s, K>& side) ACSTUDY_ALWAYS_INLINE {
         pairs += side.count();
         const Neighbor neighbor = side.neighbor();
         const Lanes m = side.template step<piece>(mass), decay = viscosity / neighbor.distance;
@@ -61,7 +60,7 @@ class Symmetric {
           sum.R_u_nonlocal += R * load(sweep_.nonlocal.u + i);
         }
       };
-      walk(kernel, add, left, right);
+      walk<K>(add, left, right);
       finish(j, sum);
     }
     return pairs;

@@ -46,13 +46,12 @@ class Upwind {
   template <int s>
   UpwindSums sums(std::ptrdiff_t j, Lanes inside, unsigned counted) {
     const Viewpoint from{load(range_.x + j), inside, range_.delta, 1.0 / range_.delta};
-    Side<s> side(range_.x + j, from, counted);
+    Side<s, K> side(range_.x + j, from, counted, kernel_);
     UpwindSums sum;
-    K kernel = kernel_;
     const auto first_moment = [&]<KernelPiece piece>(Lanes z)
-                                  ACSTUDY_ALWAYS_INLINE { return kernel.template first_moment<piece>(z); };
+                                  ACSTUDY_ALWAYS_INLINE { return kernel_.template first_moment<piece>(z); };
     std::int64_t pairs = 0;
-    const auto add = [&]<KernelPiece piece>(Side<s>& there) ACSTUDY_ALWAYS_INLINE {
+    const auto add = [&]<KernelPiece piece>(Side<s, K>& there) ACSTUDY_ALWAYS_INLINE {
       pairs += there.count();
       const Neighbor neighbor = there.neighbor();
       const Lanes W = there.template step<piece>(first_moment) / neighbor.distance;
@@ -64,7 +63,7 @@ class Upwind {
         sum.flux_nonlocal += W * load(sweep_.nonlocal.flux + i);
       }
     };
-    walk(kernel, add, side);
+    walk<K>(add, side);
     pairs_ += pairs;
     return sum;
   }

@@ -262,7 +262,7 @@ std::ptrdiff_t SharedParticles::reach(double delta) const {
       std::partition_point(x.at(last), x.at(n + wrapped_ - 2), [&](double y) { return y - x[last] <= inside; });
   const double* const left =
       std::partition_point(x.at(3 - wrapped_), x.at(1), [&](double y) { return x[0] - y > inside; });
-  return std::max(right - x.at(n) + 2, x.at(0) - left + 3);
+  return std::max(right - x.at(n) + 2, x.at(0) - left + 3) + looked_ahead;
 }
 
 }  // namespace acstudy

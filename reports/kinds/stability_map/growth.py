@@ -1,5 +1,6 @@
 """Growth in time: the max norm of all steps up to t."""
 
+from functools import partial
 import math
 
 from matplotlib.lines import Line2D
@@ -19,7 +20,7 @@ def drawings(study):
         return []
     horizon = dict.fromkeys(f'δ = {one.coordinates["delta/h"]:g}h' for one in found)
     return [Drawing(
-        f"{study.name}.growth", f"{study.title}: growth in time", growth_figure(found),
+        f"{study.name}.growth", f"{study.title}: growth in time", partial(growth_figure, found),
         "Plots of the max norm of all steps up to t against t, a panel per scheme, a curve per integrator and CFL "
         "number. Values: the result file.",
         f"Max norm of all steps up to t on uniform starting positions, {' and '.join(filter(None, horizon))}. Pale "

@@ -1,5 +1,7 @@
 """Sharp limits: the largest CFL numbers at which no step grows beyond its bound, over the horizon."""
 
+from functools import partial
+
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 import numpy as np
@@ -16,7 +18,7 @@ def drawings(study):
         return []
     arrangements = ordered(found, lambda finding: parts(finding)[0])
     return [Drawing(
-        f"{study.name}.limits", f"{study.title}: sharp limits", limits_figure(found),
+        f"{study.name}.limits", f"{study.title}: sharp limits", partial(limits_figure, found),
         "Log-log plots of the largest CFL number at which no step grows in the max norm beyond its bound against "
         "delta/h, a panel per scheme, a curve per integrator. Values: table below.",
         "Largest CFL number, by bisection, up to which no step grows beyond φ(CΔt) in the max norm, φ the stability "

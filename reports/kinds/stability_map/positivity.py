@@ -1,5 +1,6 @@
 """Positivity: the smallest entry of a step over the CFL number."""
 
+from functools import partial
 import math
 
 from matplotlib.lines import Line2D
@@ -17,7 +18,7 @@ def drawings(study):
     if not found:
         return []
     return [Drawing(
-        f"{study.name}.positivity", f"{study.title}: positivity", positivity_figure(found),
+        f"{study.name}.positivity", f"{study.title}: positivity", partial(positivity_figure, found),
         "Plots of the smallest entry of a step, the worst over delta/h, against the CFL number, a panel per scheme, a "
         "curve per integrator. Values: table below.",
         "Smallest entry of a step, the worst over δ/h; below zero a positive solution can turn negative. Logarithmic "

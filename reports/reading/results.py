@@ -85,7 +85,7 @@ def _groups(file, name, share):
     """One after another: to close a file takes long while many of its groups are at hand."""
     within = file[name] if name in file else {}
     first, step = share
-    return (Stored(within[key]) for key in islice(sorted(within), first, None, step))
+    return (Stored(within).group_of(key) for key in islice(sorted(within), first, None, step))
 
 
 def _finding(group):

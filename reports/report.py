@@ -59,13 +59,13 @@ def report(folder, files, figures=None, formats=(), parts=False):
     benches = bench_results.read_all(folder)
     seeded, compared = mutants.read(folder), comparison.read(folder)
     words = []
-    drawn = making.drawn(studies, benches, kept, formats, lambda: words.append(page.words(studies, benches)))
+    drawn = making.drawn(studies, benches, kept, formats, lambda: words.append(page.words(studies, benches, seeded)))
     if figures:
         figures.mkdir(parents=True, exist_ok=True)
         for one in (one for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group):
             for kind, content in one.files.items():
                 _write(figures / f"{one.stem}.{kind}", content)
-    pages = page.files(*words, drawn, seeded, compared, parts, kept)
+    pages = page.files(*words, drawn, compared, parts, kept)
     if (folder / history.FILE).is_file():
         pages[FRONT] = history.linked(pages[FRONT])
     for name, text in pages.items():

@@ -33,54 +33,57 @@ class Words:
     found: dict         # {question: its studies}
     curves: list        # whose errors and times are compared
     statements: tuple   # of the paper, further ones
+    seeded: tuple       # mutants.read()
+    verdicts: list
+    departing: list     # entries of the ledger
     paths: Markup
     cases: Markup
     origin: Markup
 
 
-def words(studies, benches=()):
-    return Words(studies, benches, questions.by_question(studies), run_time.curves(studies, benches),
-                 claims.statements(studies), paths.table(studies), _cases(studies), _origin(studies))
+def words(studies, benches=(), seeded=None):
+    found, curves = questions.by_question(studies), run_time.curves(studies, benches)
+    statements = claims.statements(studies)
+    return Words(studies, benches, found, curves, statements, seeded, verdicts(found, curves, seeded, statements[0]),
+                 departing(studies), paths.table(studies), _cases(studies), _origin(studies))
 
 
-def files(words, drawn, seeded=None, compared=None, parts=False, kept=None):
+def files(words, drawn, compared=None, parts=False, kept=None):
     """{name: text of the page}. parts: a page for each question, else all in one.
 
-    `words`: of words(); `drawn`: making.Drawn; `seeded`: mutants.read(); `compared`: comparison.read(); `kept`: a
-    reading.kept.Kept, or None.
+    `words`: of words(); `drawn`: making.Drawn; `compared`: comparison.read(); `kept`: a reading.kept.Kept, or None.
     """
-    found = _contents(words, drawn, seeded, compared, kept)
+    found = _contents(words, drawn, compared, kept)
     return in_parts.files(found) if parts else {"index.html": str(markup.render("page.html", **found, parts=False))}
 
 
 def html(studies, drawings, benches=(), seeded=None, compared=None):
     """The page in one as text. `drawings`: {name of a study: its drawings}."""
-    return files(words(studies, benches), making.Drawn(drawings, [], []), seeded, compared)["index.html"]
+    return files(words(studies, benches, seeded), making.Drawn(drawings, [], []), compared)["index.html"]
 
 
-def _contents(words, drawn, seeded, compared, kept):
+def _contents(words, drawn, compared, kept):
     """What the templates of the page name."""
-    studies, found, curves, statements = words.studies, words.found, words.curves, words.statements
+    studies, found, seeded = words.studies, words.found, words.seeded
     top = headline.study_of(found)
     # The headline figure stands on the first screen, and only there.
     first = next(iter(drawn.studies.get(top.name, [])), None) if top else None
     rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
     inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
     articles, faces = _made(studies, rest, svg.letters(inline), kept)
-    sections = {question: _answers(question, found, articles, drawn.studies, statements) for question in questions.ALL}
+    sections = {question: _answers(question, found, articles, drawn.studies, words.statements) for question in questions.ALL}
     sections[questions.COMPATIBILITY] = words.paths + sections[questions.COMPATIBILITY]
-    if curves or compared:
-        sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, words.benches, drawn.benches, compared)
+    if words.curves or compared:
+        sections[questions.RUN_TIME] = run_time.section(words.curves, drawn.costs, words.benches, drawn.benches, compared)
     if seeded is not None:
         heading = Markup('<h3 id="q.seeded-mistakes">Mistakes seeded in the sources</h3>\n')
         sections[questions.MISTAKES] += heading + mutants.section(seeded)
-    answers = verdicts(found, curves, seeded, statements[0])
-    said = {one.question: one.said for one in answers}
-    bad = departing(studies)
+    said = {one.question: one.said for one in words.verdicts}
+    bad = words.departing
     nouns = _count(studies)
     return dict(
         title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(faces),
-        script=markup.script(), verdicts=answers, outcome=markup.outcome(
+        script=markup.script(), verdicts=words.verdicts, outcome=markup.outcome(
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
         departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,

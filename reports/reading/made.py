@@ -1,5 +1,6 @@
 """What is made of result files, the studies in them first: kept from the last report, or made by several processes."""
 
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from dataclasses import replace
 import gc
@@ -12,7 +13,8 @@ LARGE = 1 << 20     # bytes of a file that is read by several processes if it is
 
 def studies(files, kept, meanwhile=None):
     """The studies in result files. `kept`: a reading.kept.Kept; `meanwhile`: of processes.results()."""
-    made_of = [("study", kept.of_file(file)) if file.is_file() else () for file in files]
+    with ThreadPoolExecutor(processes.usable()) as threads:     # what is large is digested without Python's lock
+        made_of = list(threads.map(lambda file: ("study", kept.of_file(file)) if file.is_file() else (), files))
     with processes.no_search_for_garbage():
         found = made([(results.read_study, file) for file in files], made_of, kept, processes.results, _parts_of_file,
                      results.joined, meanwhile)
@@ -34,16 +36,29 @@ def made(tasks, made_of, kept, make, parts=None, join=None, meanwhile=None):
     """
     if kept is None:
         return list(make(tasks, 1))
-    found = [kept.get(*one) for one in made_of]
-    missing = [i for i, one in enumerate(found) if one is None]
-    n = processes.usable() // max(1, len(missing)) if parts else 1
-    groups = [parts(tasks[i], n) if n > 1 else [tasks[i]] for i in missing]
-    all_parts = list(chain.from_iterable(groups))
-    with closing(make(all_parts, len(all_parts), meanwhile=meanwhile)) as in_turn:
-        for i, group in zip(missing, groups):
-            first, *others = [next(in_turn) for _ in group]
-            found[i] = join([first, *others]) if others else first
-            kept.keep(found[i], *made_of[i])
-        for _ in in_turn:       # to its end, for what is done meanwhile without any task
-            pass
+    found = [None] * len(tasks)
+    missing = [i for i, one in enumerate(made_of) if not kept.has(*one)]
+
+    def take():
+        for i in set(range(len(tasks))).difference(missing):
+            found[i] = kept.get(*made_of[i])
+        if meanwhile:
+            meanwhile()
+
+    def fill(places, meanwhile):
+        n = processes.usable() // max(1, len(places)) if parts else 1
+        groups = [parts(tasks[i], n) if n > 1 else [tasks[i]] for i in places]
+        all_parts = list(chain.from_iterable(groups))
+        with closing(make(all_parts, len(all_parts), meanwhile=meanwhile)) as in_turn:
+            for i, group in zip(places, groups):
+                first, *others = [next(in_turn) for _ in group]
+                found[i] = join([first, *others]) if others else first
+                kept.keep(found[i], *made_of[i])
+            for _ in in_turn:       # to its end, for what is done meanwhile without any task
+                pass
+
+    fill(missing, take)
+    damaged = [i for i, one in enumerate(found) if one is None]
+    if damaged:
+        fill(damaged, None)
     return found

@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 
 from drawing import look
 from kinds import registry, run_times
 from kinds.bench import figures as bench_figures
-from reading import processes, results
+from reading import processes
 from reading.made import made
 
 
@@ -23,7 +24,8 @@ def drawn(studies, benches, kept, formats=(), meanwhile=None):
     tasks = list(_tasks(studies, benches))
     made_of = [(draw.__module__, *map(kept.of_file, files), more, formats) for files, (draw, _, *more) in tasks]
     found = made([task for _, task in tasks], made_of, kept,
-                 partial(processes.results, work=partial(_rendered, formats=formats)), _parts, results.dealt, meanwhile)
+                 partial(processes.results, work=partial(_rendered, formats=formats)), _parts,
+                 lambda parts: list(chain.from_iterable(parts)), meanwhile)
     n = len(studies)
     return Drawn(dict(zip((study.name for study in studies), found)), [one for group in found[n:-1] for one in group],
                  found[-1])
@@ -34,13 +36,10 @@ def _rendered(task, formats):
         return [look.render(one, formats) for one in processes.called(task)]
 
 
-def _parts(task, n):
-    return [(_every, k, n, *task) for k in range(n)]
-
-
-def _every(k, n, draw, *arguments):
-    """Every n-th drawing, from `k` on."""
-    return list(draw(*arguments))[k::n]
+def _parts(task, _):
+    """A task for each drawing, whose figure is made where it is rendered if its kind leaves that for later."""
+    draw, *arguments = task
+    return [(list, (one,)) for one in draw(*arguments)] or [task]
 
 
 def _tasks(studies, benches):

@@ -71,10 +71,12 @@ def _contents(words, drawn, compared, kept):
     rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
     inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
     articles, faces = _made(studies, rest, svg.letters(inline), kept)
-    sections = {question: _answers(question, found, articles, drawn.studies, words.statements) for question in questions.ALL}
+    sections = {question: _answers(question, found, articles, drawn.studies, words.statements)
+                for question in questions.ALL}
     sections[questions.COMPATIBILITY] = words.paths + sections[questions.COMPATIBILITY]
     if words.curves or compared:
-        sections[questions.RUN_TIME] = run_time.section(words.curves, drawn.costs, words.benches, drawn.benches, compared)
+        sections[questions.RUN_TIME] = run_time.section(words.curves, drawn.costs, words.benches, drawn.benches,
+                                                        compared)
     if seeded is not None:
         heading = Markup('<h3 id="q.seeded-mistakes">Mistakes seeded in the sources</h3>\n')
         sections[questions.MISTAKES] += heading + mutants.section(seeded)

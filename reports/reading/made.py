@@ -31,7 +31,7 @@ def made(tasks, made_of, kept, make, parts=None, join=None, meanwhile=None):
     """What each task gives, kept or made; `made_of`: of each, what it depends on. Without `kept` all are made.
 
     make: (tasks, at_most, meanwhile=) -> an iterator, such as processes.results();
-    parts: (task, n) -> up to n tasks that together do the same, for processes that had nothing to do; `join`: what they
+    parts: (task, n) -> tasks that together do the same, for n processes that had nothing else to do; `join`: what they
     give, to what the task gives.
     """
     if kept is None:

@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import DASHES, GRAY, MARKERS, Drawing, mark_departing, typography
 from kinds.stability_map.findings import NORM, SEARCH_END, integrator_of, of_kind, ordered, parts, subject_of
 from kinds.stability_map.panels import SHADES, panels
@@ -94,7 +94,9 @@ def _draw_limit(panel, findings, i):
         panel.plot(x, np.where((rows > 0) & np.isfinite(rows), rows, np.nan), zorder=1, **_ROWS)
     panel.fill_between(x, shown(least), np.minimum(largest, SEARCH_END), color=look["color"], alpha=_BAND, linewidth=0,
                        where=np.isfinite(shown(least)))
-    panel.plot(x, shown(least), **look)
+    curve, = panel.plot(x, shown(least), **look)
+    hover.mark(curve, integrator_of(findings[0]), findings[0].subject,
+               **{"δ/h": x, "largest CFL number": least, "on other particles up to": largest, "by the rows": rows})
     edge = dict(color=look["color"], linestyle="none", transform=panel.get_xaxis_transform(), markersize=5)
     for where, height, marker in ((least >= SEARCH_END, 0.96 - 0.05 * i, "^"), (least == 0, 0.05 + 0.05 * i, "x")):
         if where.any():

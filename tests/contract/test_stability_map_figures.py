@@ -217,7 +217,7 @@ class Curves(StabilityMapTest):
         drawn = self.drawings(limit(), limit(subject="another"), growth_map(), curve(), positivity())
         for part, columns in (("limits", ("δ/h", "largest CFL number", "on other particles up to", "by the rows")),
                               ("growth", ("t", "growth")),
-                              ("positivity", ("CFL number", "smallest entry", "horizons at which none may be negative"))):
+                              ("positivity", ("CFL number", "smallest entry", "part of the horizons with a bound"))):
             curves = [one for one in hover.curves(drawn[part].figure) if one.points]
             self.assertEqual({(one.name, one.columns) for one in curves}, {("forward-euler", columns)}, part)
         self.assertEqual(hover.curves(drawn["limits"].figure)[1].points[2][2:], ("8", "6", "6", "4"))

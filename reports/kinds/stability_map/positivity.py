@@ -60,7 +60,7 @@ def positivity_figure(found):
                 curve, = panel.plot(x, y, **(style | {"marker": None}))
                 name = integrator_of(finding)
                 hover.mark(curve, name, f"{finding.subject}: {finding.verdict}",
-                           **{"CFL number": x, "smallest entry": y, "horizons at which none may be negative": promised})
+                           **{"CFL number": x, "smallest entry": y, "part of the horizons with a bound": promised})
                 for share, fill in ((promised == 1, "full"), ((promised > 0) & (promised < 1), "left"),
                                     (promised == 0, "none")):
                     if share.any():

@@ -25,8 +25,7 @@ def main(arguments=None):
     options = _options(arguments)
     try:
         # The libraries load in a second: only once the command line is known to be good.
-        from drawing import processes
-        from reading import results
+        from reading import processes, results
         try:
             made = against(*_inputs(options), options.against) if options.against else report(
                 *_inputs(options), *_figures(options), options.folder)
@@ -50,22 +49,23 @@ def report(folder, files, figures=None, formats=(), parts=False):
 
     figures: a folder for the figures as files of these `formats`, or None; parts: a page for each question.
     """
-    from pages import comparison, history, making, mutants, page
-    from reading import bench_results
+    from reading import bench_results, made
     from reading.kept import Kept
 
     kept = Kept(folder, _write)
-    studies = making.read(files, kept)
+    studies = made.studies(files, kept, meanwhile=_load)
+    from pages import comparison, history, making, mutants, page
     _refuse_clashes(studies)
     benches = bench_results.read_all(folder)
     seeded, compared = mutants.read(folder), comparison.read(folder)
-    drawn = making.drawn(studies, benches, kept, formats)
+    words = []
+    drawn = making.drawn(studies, benches, kept, formats, lambda: words.append(page.words(studies, benches, seeded)))
     if figures:
         figures.mkdir(parents=True, exist_ok=True)
         for one in (one for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group):
             for kind, content in one.files.items():
                 _write(figures / f"{one.stem}.{kind}", content)
-    pages = page.files(studies, drawn, benches, seeded, compared, parts, kept)
+    pages = page.files(*words, drawn, compared, parts, kept)
     if (folder / history.FILE).is_file():
         pages[FRONT] = history.linked(pages[FRONT])
     for name, text in pages.items():
@@ -74,12 +74,18 @@ def report(folder, files, figures=None, formats=(), parts=False):
     return folder / FRONT
 
 
+def _load():
+    """What draws and writes takes as long to load as a study to read."""
+    from pages import making, page
+
+
 def against(folder, files, earlier):
     """Writes the page of this run beside earlier ones, `earlier` being their folders, into `folder`; its path.
 
     A front page that is there gets a link to it.
     """
-    from pages import history, making
+    from pages import history
+    from reading import made
     from reading.kept import Kept
 
     kept = Kept(folder, _write)
@@ -87,7 +93,7 @@ def against(folder, files, earlier):
     for name, of_run in (*((name, _results(Path(name))) for name in earlier), (str(folder), files)):
         if not of_run:
             raise UsageError(f"{name}: no result file (*.h5) in it; name a folder that acstudy run has written to")
-        studies = making.read(of_run, kept)
+        studies = made.studies(of_run, kept)
         _refuse_clashes(studies)
         runs.append(history.Run(name, tuple(studies)))
     _write(folder / history.FILE, history.html(runs).encode("utf-8"))

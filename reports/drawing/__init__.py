@@ -1,1 +1,1 @@
-"""What every figure is drawn with: its look, logarithmic axes, SVG that reads anywhere, several processes."""
+"""What every figure is drawn with: its look, logarithmic axes, SVG that reads anywhere."""

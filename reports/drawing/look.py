@@ -2,9 +2,11 @@
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 import io
 import re
 
+from drawing import undocumented    # before all that it is about
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -49,7 +51,7 @@ class Drawing:
     """A figure of a report and what the page says about it."""
     stem: str               # of its files; a study's name, or one followed by a dot and a slug: no two studies collide
     title: str
-    figure: object          # matplotlib's; None once it is rendered
+    makes: object           # matplotlib's figure, or what makes it when it is asked for; None once it is rendered
     alt: str
     caption: str            # how to read it
     statements: tuple = ()  # of theory that it shows; empty: those of its whole study
@@ -57,6 +59,11 @@ class Drawing:
     inline: str = ""        # the figure as an element of a page, once it is rendered; see svg.inline
     curves: tuple = ()      # hover.Curve of each that is marked, once it is rendered
     files: dict = field(default_factory=dict)   # content by extension, once it is rendered: those asked for
+
+    @cached_property
+    def figure(self):
+        """matplotlib's; None once it is rendered."""
+        return self.makes() if callable(self.makes) else self.makes
 
 
 def slug(text):
@@ -95,7 +102,7 @@ def render(drawing, formats=()):
     files = {kind: svg.readable(drawn).encode() if kind == "svg" else _saved(drawing.figure, drawing.title, kind)
              for kind in formats}
     return replace(drawing, inline=svg.inline(drawn, drawing.stem, drawing.alt), curves=curves, files=files,
-                   figure=None)
+                   makes=None)
 
 
 def image(figure, title, kind):

@@ -1,5 +1,7 @@
 """Consistency: how fast truncation errors vanish."""
 
+from functools import partial
+
 from drawing.curves import curves_figure, drawable
 from drawing.look import Drawing, slug
 from kinds import says
@@ -14,7 +16,7 @@ def drawings(study, styles):
                  if finding.statement == statement and drawable(finding)]
         if found:
             drawn.append(Drawing(
-                f"{study.name}.{slug(statement)}", f"{study.title}: {statement}", curves_figure(found),
+                f"{study.name}.{slug(statement)}", f"{study.title}: {statement}", partial(curves_figure, found),
                 f"Log-log plots for {statement}: {found[0].claim}. A panel per arrangement of particles and path. "
                 "Values: table below.",
                 f"{statement}. Thin lines: theory's slope, or, dashed, the bound of each scheme where one is claimed. "

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from drawing import hover
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from kinds import says
 from kinds.kind import Kind
@@ -51,6 +52,8 @@ def coverage_figure(found):
                 np.asarray(x) + shift, share, yerr=np.clip([share - low, high - share], 0, None), color=color,
                 marker=MARKERS[i % len(MARKERS)], linestyle=DASHES[i % len(DASHES)], linewidth=1.1, capsize=2,
                 elinewidth=0.9, markerfacecolor="none" if finding.control else color))
+            hover.mark(handles[-1], _name(finding), finding.verdict, share=share,
+                       **{"95 % from": low, "to": high, "series": trials})
         levels = sorted({int(x) for finding in of_levels for x in finding.points.variable})
         panel.set_xticks(levels, [f"{level}" for level in levels])
         panel.set_xlabel("levels of a series")
@@ -59,9 +62,13 @@ def coverage_figure(found):
         beside.set(xlim=(-0.6, max(len(alone), 1) - 0.4), xticks=[])
         beside.set_xlabel("all levels together")
         beside.tick_params(labelleft=False)
-        texts = [f"{finding.subject}, {finding.check}" for finding in found]
-        foot_legend(figure, left, handles, map(names.literal, texts), 2, bottom=0.12)
+        texts = list(map(_name, found))
+        hover.mark_legend(foot_legend(figure, left, handles, map(names.literal, texts), 2, bottom=0.12), texts)
         return figure
+
+
+def _name(finding):
+    return f"{finding.subject}, {finding.check}"
 
 
 def wilson(share, trials):

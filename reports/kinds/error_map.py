@@ -1,5 +1,6 @@
 """The plane of horizon and spacing: a map of the error for every scheme and target, and cuts through it."""
 
+from functools import partial
 import math
 import textwrap
 
@@ -29,14 +30,15 @@ def drawings(study, styles):
         return []
     described = "for every scheme against both targets. Values: the result file."
     return [
-        Drawing(study.name, study.title, map_figure(study, planes),
+        Drawing(study.name, study.title, partial(map_figure, study, planes),
                 f"Color maps of the max-norm error over spacing h and horizon delta {described}",
                 "Max-norm error at the final time over spacing and horizon; both axes and the colors are logarithmic, "
                 "dots are the cases, thin lines those of equal error. Thick lines: refinement paths. "
                 f"{_fit_caption(study)}Asymptotic compatibility: against the nonlocal model the error falls to the left "
                 "at every horizon, against the local equation toward the lower left, however that is approached.",
                 says=_map_says(study)),
-        Drawing(f"{study.name}.cuts", f"{study.title}: cuts", cuts_figure(study.evidence, planes),
+        Drawing(f"{study.name}.cuts", f"{study.title}: cuts",
+                partial(cuts_figure, study.evidence, planes),
                 f"Orders in h at fixed horizon, and errors at the finest spacing against the horizon, {described}",
                 "Left and middle: order in the limit h → 0 at each horizon, with its 95 % interval, cut at the panel's "
                 "edge. Shaded: horizons between the finest and the coarsest spacing. There a cut passes from δ < h to "

@@ -1,5 +1,7 @@
 """The table of extremes: what is to be expected at the ends of every range, what was observed, and all of it."""
 
+from functools import partial
+
 from markupsafe import Markup
 
 from drawing.curves import curves_figure, drawable
@@ -27,7 +29,7 @@ def drawings(study, styles):
         moving = "divergence" in finding.subject
         part = ", moving particles" if moving else f", {alone[0]} particles" if len(alone) == 1 else ""
         groups.setdefault((finding.statement, finding.statement + part), []).append(finding)
-    return [Drawing(f"{study.name}.{slug(name)}", f"{study.title}: {name}", curves_figure(group),
+    return [Drawing(f"{study.name}.{slug(name)}", f"{study.title}: {name}", partial(curves_figure, group),
                     f"Log-log plots for {name}, a panel per arrangement of particles and case. Values: table below.",
                     f"{name[0].upper()}{name[1:]}. {CAPTION}", (statement,), says=says.orders(group))
             for (statement, name), group in groups.items()]

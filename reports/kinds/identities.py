@@ -1,5 +1,6 @@
 """Identities and bounds of operators: every value beside its bound."""
 
+from functools import partial
 import math
 
 from matplotlib.lines import Line2D
@@ -19,7 +20,7 @@ def drawings(study, styles):
     drawn = []
     if bounded:
         drawn.append(Drawing(
-            study.name, study.title, dots_figure(bounded),
+            study.name, study.title, partial(dots_figure, bounded),
             f"Dot plot of {study.title}: the largest value of every finding relative to its bound. "
             "Values: table below.",
             "A dot per finding: the largest |value| relative to its bound, over all its particles and horizons; "
@@ -29,7 +30,7 @@ def drawings(study, styles):
     curves = [finding for finding in study.findings if finding.test != "bounds" and drawable(finding)]
     if curves:
         drawn.append(Drawing(
-            f"{study.name}.orders", f"{study.title}: orders", curves_figure(curves),
+            f"{study.name}.orders", f"{study.title}: orders", partial(curves_figure, curves),
             f"Log-log plots of the values of {study.title} that must vanish with an order. Values: table below.",
             "Values that must vanish with an order; thin lines: theory's slope.",
             tuple(dict.fromkeys(finding.statement for finding in curves)), says=says.orders(curves)))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from kinds.coverage import wilson
+from drawing import hover
 from drawing.look import COLORS, DASHES, GRAY, LINE, MARKERS, WIDTH, Drawing, add_axes, blank, foot_legend, typography
 from kinds.kind import Kind
 
@@ -48,11 +49,14 @@ def scan_figure(curves, sums):
                     finding.points.variable + 0.08 * (k - 1.5), factor * value,
                     yerr=factor * np.clip([value - low, high - value], 0, None), color=COLORS[k],
                     marker=MARKERS[k], linestyle=DASHES[k], linewidth=1.1, capsize=2, elinewidth=0.9))
+                hover.mark(handles[-1], finding.check, finding.verdict,
+                           **{label: factor * value, "95 % from": factor * low, "to": factor * high, "series": count})
             panel.set_xlabel("levels of a series")
             panel.set_ylabel(label)
             if subject == FALSE:
                 panel.set_ylim(bottom=0.0)
-        foot_legend(figure, left, handles, ["all", *(finding.check for finding in found)], 5)
+        checks = [finding.check for finding in found]
+        hover.mark_legend(foot_legend(figure, left, handles, ["all", *checks], 5), [None, *checks])
         return figure
 
 

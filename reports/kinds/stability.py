@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.curves import bounded
 from drawing.look import DASHES, GRAY, WIDTH, Drawing, add_axes, blank, mark_departing, typography
 from drawing.subjects import (GAP, LEFT, RIGHT, arrangement, legend_height, subject_legend, subject_styles,
@@ -65,10 +65,13 @@ def growth_figure(found):
                     style = dict(styles[finding.subject])
                     if finding.control:
                         style.update(linestyle=DASHES[1], alpha=0.4)
-                    panel.plot(*curves[id(finding)], **style)
-                    _leaves_above(panel, *curves[id(finding)], high, style)
+                    x, y = curves[id(finding)]
+                    curve, = panel.plot(x, y, **style)
+                    hover.mark(curve, finding.subject, f"{finding.check}: {finding.verdict}",
+                               **{"δ/h": x, "growth / bound": y})
+                    _leaves_above(panel, x, y, high, style)
                     if not finding.as_expected:
-                        mark_departing(panel, *curves[id(finding)])
+                        mark_departing(panel, x, y)
                 panel.tick_params(which="both", top=True, right=True, labelleft=j == 0, labelbottom=(i, j) in lowest)
                 if (i, j) in lowest:
                     panel.set_xlabel(variable_math(found[0].variable_name))

@@ -1,14 +1,14 @@
-"""Reads results and draws their figures: what has not changed since the last report is taken from there."""
+"""Draws all figures of a report: what has not changed since the last one is taken from there."""
 
-from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-import gc
+from itertools import chain
 
-from drawing import processes
+from drawing import look
 from kinds import registry, run_times
 from kinds.bench import figures as bench_figures
-from reading import results
+from reading import processes
+from reading.made import made
 
 
 @dataclass(frozen=True)
@@ -19,36 +19,27 @@ class Drawn:
     benches: list
 
 
-def read(files, kept):
-    """The studies in result files. `kept`: a reading.kept.Kept."""
-    made_of = [("study", kept.of_file(file)) if file.is_file() else () for file in files]
-    with processes.no_search_for_garbage():
-        found = made([(results.read_study, file) for file in files], made_of, kept, processes.results)
-    gc.freeze()     # they stay to the end
-    return [replace(study, file=file) for study, file in zip(found, files)]
-
-
-def drawn(studies, benches, kept, formats=()):
-    """The figures of studies and benches, each with files of these `formats`."""
+def drawn(studies, benches, kept, formats=(), meanwhile=None):
+    """The figures of studies and benches, each with files of these `formats`. `meanwhile`: of processes.results()."""
     tasks = list(_tasks(studies, benches))
     made_of = [(draw.__module__, *map(kept.of_file, files), more, formats) for files, (draw, _, *more) in tasks]
-    found = made([task for _, task in tasks], made_of, kept, partial(processes.in_turn, formats=formats))
+    found = made([task for _, task in tasks], made_of, kept,
+                 partial(processes.results, work=partial(_rendered, formats=formats)), _parts,
+                 lambda parts: list(chain.from_iterable(parts)), meanwhile)
     n = len(studies)
     return Drawn(dict(zip((study.name for study in studies), found)), [one for group in found[n:-1] for one in group],
                  found[-1])
 
 
-def made(tasks, made_of, kept, make):
-    """What each task gives, kept or made by `make`; `made_of`: of each, what it depends on. Without `kept` all are made."""
-    if kept is None:
-        return list(make(tasks, 1))
-    found = [kept.get(*one) for one in made_of]
-    missing = [i for i, one in enumerate(found) if one is None]
-    with closing(make([tasks[i] for i in missing], len(missing))) as in_turn:
-        for i, one in zip(missing, in_turn):
-            found[i] = one
-            kept.keep(one, *made_of[i])
-    return found
+def _rendered(task, formats):
+    with processes.no_search_for_garbage():
+        return [look.render(one, formats) for one in processes.called(task)]
+
+
+def _parts(task, _):
+    """A task for each drawing, whose figure is made where it is rendered if its kind leaves that for later."""
+    draw, *arguments = task
+    return [(list, (one,)) for one in draw(*arguments)] or [task]
 
 
 def _tasks(studies, benches):

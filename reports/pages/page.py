@@ -4,11 +4,13 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from drawing import inlined, processes, svg
+from drawing import inlined, svg
 from kinds import registry
 from pages import claims, comparison, explorer, headline, in_parts, making, mutants, paths, questions, run_time
 from pages.study import article, listing
 from pages.verdicts import departing, verdicts
+from reading import processes
+from reading.made import made
 from writing import figures, markup, tables
 
 TITLE = "Asymptotic compatibility: convergence studies"
@@ -23,45 +25,67 @@ class Section:
     content: Markup
 
 
-def files(studies, drawn, benches=(), seeded=None, compared=None, parts=False, kept=None):
+@dataclass(frozen=True)
+class Words:
+    """What a page says whatever its figures look like."""
+    studies: list
+    benches: list
+    found: dict         # {question: its studies}
+    curves: list        # whose errors and times are compared
+    statements: tuple   # of the paper, further ones
+    seeded: tuple       # mutants.read()
+    verdicts: list
+    departing: list     # entries of the ledger
+    paths: Markup
+    cases: Markup
+    origin: Markup
+
+
+def words(studies, benches=(), seeded=None):
+    found, curves = questions.by_question(studies), run_time.curves(studies, benches)
+    statements = claims.statements(studies)
+    return Words(studies, benches, found, curves, statements, seeded, verdicts(found, curves, seeded, statements[0]),
+                 departing(studies), paths.table(studies), _cases(studies), _origin(studies))
+
+
+def files(words, drawn, compared=None, parts=False, kept=None):
     """{name: text of the page}. parts: a page for each question, else all in one.
 
-    `drawn`: making.Drawn; `seeded`: mutants.read(); `compared`: comparison.read(); `kept`: a reading.kept.Kept, or None.
+    `words`: of words(); `drawn`: making.Drawn; `compared`: comparison.read(); `kept`: a reading.kept.Kept, or None.
     """
-    found = _contents(studies, drawn, benches, seeded, compared, kept)
+    found = _contents(words, drawn, compared, kept)
     return in_parts.files(found) if parts else {"index.html": str(markup.render("page.html", **found, parts=False))}
 
 
 def html(studies, drawings, benches=(), seeded=None, compared=None):
     """The page in one as text. `drawings`: {name of a study: its drawings}."""
-    return files(studies, making.Drawn(drawings, [], []), benches, seeded, compared)["index.html"]
+    return files(words(studies, benches, seeded), making.Drawn(drawings, [], []), compared)["index.html"]
 
 
-def _contents(studies, drawn, benches, seeded, compared, kept):
+def _contents(words, drawn, compared, kept):
     """What the templates of the page name."""
-    found = questions.by_question(studies)
-    curves = run_time.curves(studies, benches)
+    studies, found, seeded = words.studies, words.found, words.seeded
     top = headline.study_of(found)
     # The headline figure stands on the first screen, and only there.
     first = next(iter(drawn.studies.get(top.name, [])), None) if top else None
     rest = {name: [one for one in of_study if one is not first] for name, of_study in drawn.studies.items()}
     inline = "".join(one.inline for group in (*drawn.studies.values(), drawn.costs, drawn.benches) for one in group)
-    statements = claims.statements(studies)
     articles, faces = _made(studies, rest, svg.letters(inline), kept)
-    sections = {question: _answers(question, found, articles, drawn.studies, statements) for question in questions.ALL}
-    sections[questions.COMPATIBILITY] = paths.table(studies) + sections[questions.COMPATIBILITY]
-    if curves or compared:
-        sections[questions.RUN_TIME] = run_time.section(curves, drawn.costs, benches, drawn.benches, compared)
+    sections = {question: _answers(question, found, articles, drawn.studies, words.statements)
+                for question in questions.ALL}
+    sections[questions.COMPATIBILITY] = words.paths + sections[questions.COMPATIBILITY]
+    if words.curves or compared:
+        sections[questions.RUN_TIME] = run_time.section(words.curves, drawn.costs, words.benches, drawn.benches,
+                                                        compared)
     if seeded is not None:
         heading = Markup('<h3 id="q.seeded-mistakes">Mistakes seeded in the sources</h3>\n')
         sections[questions.MISTAKES] += heading + mutants.section(seeded)
-    answers = verdicts(found, curves, seeded, statements[0])
-    said = {one.question: one.said for one in answers}
-    bad = departing(studies)
+    said = {one.question: one.said for one in words.verdicts}
+    bad = words.departing
     nouns = _count(studies)
     return dict(
         title=TITLE, style=markup.style(inlined.dark(inline)), faces=Markup(faces),
-        script=markup.script(), verdicts=answers, outcome=markup.outcome(
+        script=markup.script(), verdicts=words.verdicts, outcome=markup.outcome(
             {noun: sum(not one.as_expected for one in group) for noun, group in nouns.items()},
             {noun: len(group) for noun, group in nouns.items()}),
         departing=tables.entry_table(bad, "Not as expected") if bad else "", top=top,
@@ -73,7 +97,7 @@ def _contents(studies, drawn, benches, seeded, compared, kept):
         sections=[Section(question, said.get(question, ""), content) for question, content in sections.items()
                   if content],
         asked=[question for question, content in sections.items() if content],
-        cases=_cases(studies), origin=_origin(studies), seeded_absent=mutants.section(None) if seeded is None else "",
+        cases=words.cases, origin=words.origin, seeded_absent=mutants.section(None) if seeded is None else "",
         compared_absent=comparison.section(None) if compared is None and not sections[questions.RUN_TIME] else "")
 
 
@@ -83,7 +107,7 @@ def _made(studies, drawings, letters, kept):
     made_of = [("faces", letters)]
     if kept:
         made_of += (("article", kept.of_file(study.file), str(study.file), shown) for _, study, shown in tasks[1:])
-    faces, *articles = making.made(tasks, made_of, kept, processes.results)
+    faces, *articles = made(tasks, made_of, kept, processes.results)
     return {study.name: Markup(text) for study, text in zip(studies, articles)}, faces
 
 

@@ -31,6 +31,10 @@ class Kept:
         self.sources = digest(*(file.read_bytes() for file in sorted(_ROOT.rglob("*.py"))), sys.version,
                               *map(_version, _LIBRARIES))
 
+    def has(self, *made_of):
+        """Whether there is an entry of this, whole or damaged."""
+        return self._path(made_of).is_file()
+
     def get(self, *made_of):
         """What is kept of this; None for nothing."""
         path = self._path(made_of)

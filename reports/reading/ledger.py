@@ -124,8 +124,7 @@ def measured(finding, i=None):
     if i is None or finding.test != "bounds":
         return "–"
     points = finding.points
-    columns = points.value, points.lower, points.upper
-    value, lower, upper = (f"{column[i]:.6g}".replace("-", "−") for column in columns)
+    value, lower, upper = _apart(points.value[i], points.lower[i], points.upper[i])
     if math.isinf(points.lower[i]):
         if value == upper != "0":
             value, upper = (_beside(float(f"{points.upper[i]:.6g}"), one) for one in (points.value[i], points.upper[i]))
@@ -138,6 +137,14 @@ def measured(finding, i=None):
         return f"|value − {middle:g}| = {deviation:.2g} {'≤' if deviation <= half else '>'} {half:.2g}"
     inside = points.lower[i] <= points.value[i] <= points.upper[i]
     return f"{value} {'in' if inside else 'outside'} [{lower}, {upper}]"
+
+
+def _apart(*numbers):
+    """The numbers with three digits, or as many more, up to six, as tell them apart."""
+    different = len(set(numbers))
+    texts = next((texts for digits in (3, 4, 5) if len(set(texts := [f"{one:.{digits}g}" for one in numbers])) == different),
+                 [f"{one:.6g}" for one in numbers])
+    return [text.replace("-", "−") for text in texts]
 
 
 def _beside(round_number, value):

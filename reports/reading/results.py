@@ -3,8 +3,10 @@
 Reading only: nothing here computes, draws or writes. The layout is the format "acstudy-1" that `acstudy run` writes.
 """
 
-from pathlib import Path
+from dataclasses import replace
+from itertools import islice, zip_longest
 import math
+from pathlib import Path
 import re
 
 import h5py
@@ -25,13 +27,16 @@ class ResultError(Exception):
     """A file that cannot be read as a result of acstudy; the text is one line: file, what is wrong, remedy."""
 
 
-def read_study(path):
-    """The study in the result file `path`; ResultError if the file is missing, damaged or of another format."""
+def read_study(path, share=(0, 1)):
+    """The study in the result file `path`; ResultError if the file is missing, damaged or of another format.
+
+    share: (k, n) for the findings and series k, k + n, k + 2n, ... alone, see joined().
+    """
     path = Path(path)
     try:
         # Read at once: a file has thousands of small groups.
         with h5py.File(path, "r", driver="core", backing_store=False) as file:
-            return _study(path, file)
+            return _study(path, file, share)
     except OSError as error:
         if not path.is_file():
             raise ResultError(f"{path}: no such file; run the study first") from error
@@ -43,7 +48,7 @@ def read_study(path):
         raise ResultError(f"{path}: {reason}; run the study again") from error
 
 
-def _study(path, file):
+def _study(path, file, share):
     root = Stored(file["/"])
     found = root.attribute("format", "")
     if found != FORMAT:
@@ -56,18 +61,31 @@ def _study(path, file):
     kind = root.attribute("kind", OF_SERIES)
     scene = Stored(file["scene"]).record(Scene) if "scene" in file or kind == OF_SERIES else None
     where = f"scene of {name}" if scene is None else scene.name or f"scene of {name}"
-    series = tuple(_of_series(group, where) for group in _groups(file, "series")) if kind in _WITH_SERIES else ()
-    findings = tuple(map(_finding, _groups(file, "findings")))
+    series = tuple(_of_series(group, where) for group in _groups(file, "series", share)) if kind in _WITH_SERIES else ()
+    findings = tuple(map(_finding, _groups(file, "findings", share)))
     return Study(file=path, name=name, title=root.attribute("title"), kind=kind, text=root.attribute("study_text", ""),
                  provenance={key: str(value) for key, value in sorted(Stored(file["provenance"]).attributes.items())},
                  scene=scene, findings=series if kind == OF_SERIES else findings,
                  evidence=() if kind == OF_SERIES else series)
 
 
-def _groups(file, name):
+def joined(shares):
+    """The study of which read_study() read all shares (0, n), (1, n), ..."""
+    return replace(shares[0], findings=dealt([one.findings for one in shares]),
+                   evidence=dealt([one.evidence for one in shares]))
+
+
+def dealt(shares):
+    """The sequence of which each share has every n-th element."""
+    nothing = object()
+    return tuple(one for turn in zip_longest(*shares, fillvalue=nothing) for one in turn if one is not nothing)
+
+
+def _groups(file, name, share):
     """One after another: to close a file takes long while many of its groups are at hand."""
     within = file[name] if name in file else {}
-    return (Stored(within[key]) for key in sorted(within))
+    first, step = share
+    return (Stored(within).group_of(key) for key in islice(sorted(within), first, None, step))
 
 
 def _finding(group):

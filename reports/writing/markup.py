@@ -103,7 +103,10 @@ def error(number):
 
 
 def seconds(number):
-    return f"{number:.3g}" if math.isfinite(number) else "–"
+    """Two digits: times of studies, which run once unless one asks for more, repeat to a few percent."""
+    if not math.isfinite(number):
+        return "–"
+    return f"{number:.2g}" if number < 10 else f"{number:.0f}"
 
 
 def several(n, noun):

@@ -120,6 +120,10 @@ class Ledger(ReportTest):
         self.assertEqual(measured(1.0, 1.0), "1 ≤ 1")
         self.assertEqual(measured(0.0, 0.0), "0 ≤ 0")
         self.assertEqual(measured(0.5, 1.0), "0.5 ≤ 1")
+        # Three digits, or as many more as tell a value from its bound.
+        self.assertEqual(measured(0.5457791, 1.065812e-11), "0.546 > 1.07e−11")
+        self.assertEqual(measured(1.00237, 1.00412), "1.002 ≤ 1.004")
+        self.assertEqual(measured(1.000021, 1.0001), "1 ≤ 1.0001")
 
 
 class Extremes(ReportTest):

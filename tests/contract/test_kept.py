@@ -1,5 +1,6 @@
 """What a report keeps of the last one: never what is out of date, damaged or made by somebody else."""
 
+import multiprocessing
 import os
 import pickle
 import shutil
@@ -9,7 +10,7 @@ from unittest import mock
 from tests.result_files import ReportTest, finding, series, write
 
 from drawing import look
-from pages import making
+from reading import made
 from reading import kept, results
 
 
@@ -62,6 +63,20 @@ class Kept(ReportTest):
         shutil.rmtree(self.folder / kept.FOLDER)
         self.assertEqual(self.page(), whole)
 
+    @unittest.skipUnless(multiprocessing.get_start_method() == "fork" and hasattr(os, "sched_getaffinity"),
+                         "the processes have to inherit what is patched here")
+    def test_two_processes_share_what_one_study_takes(self):
+        write(self.folder, "ledger", kind="consistency",
+              findings=[finding(statement=statement) for statement in ("Lemma 2.5", "Lemma 3.4, A", "Lemma 3.4, B")])
+        alone = self.page()
+        shutil.rmtree(self.folder / kept.FOLDER)
+        (self.folder / "fig1.h5").rename(self.folder / "fig1.away")
+        with mock.patch("os.sched_getaffinity", lambda _: {0, 1}), mock.patch("reading.made.LARGE", 0):
+            self.assertEqual(self.run_report(self.folder)[0], 0)
+        (self.folder / "fig1.away").rename(self.folder / "fig1.h5")
+        self.assertEqual(self.page(), alone)
+        self.assertEqual((self.drawn, self.read), (["fig1", "cost.lee-du-2019"], ["fig1"]))
+
     def test_files_are_drawn_though_the_figure_is_kept(self):
         self.page()
         self.page("--figures", self.folder / "figures", "--format", "svg")
@@ -96,7 +111,7 @@ class Kept(ReportTest):
             raise PermissionError(path)
 
         one = kept.Kept(self.folder, refused)
-        study, = making.read([self.folder / "fig1.h5"], one)
+        study, = made.studies([self.folder / "fig1.h5"], one)
         self.assertEqual(study.name, "fig1")
 
 

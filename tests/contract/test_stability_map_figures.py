@@ -10,7 +10,7 @@ import numpy as np
 
 from tests.result_files import ReportTest, coordinates, finding, write
 
-from drawing import look
+from drawing import hover, look
 from reading import results
 from kinds import registry
 from kinds.stability_map import findings as stability_map_findings, maps, positivity as smallest_entries, table as sharp_limits
@@ -212,6 +212,15 @@ class Curves(StabilityMapTest):
         found = limit(), limit(value=(1000.0,) * 3, check="uniform, backward-euler")
         self.assertNotIn("backward-euler", legend(self.drawings(*found)["limits"].figure))
         self.assertIn("backward-euler", legend(self.drawings(found[1])["limits"].figure))
+
+    def test_points_of_curves_say_what_they_are(self):
+        drawn = self.drawings(limit(), limit(subject="another"), growth_map(), curve(), positivity())
+        for part, columns in (("limits", ("δ/h", "largest CFL number", "on other particles up to", "by the rows")),
+                              ("growth", ("t", "growth")),
+                              ("positivity", ("CFL number", "smallest entry", "part of the horizons with a bound"))):
+            curves = [one for one in hover.curves(drawn[part].figure) if one.points]
+            self.assertEqual({(one.name, one.columns) for one in curves}, {("forward-euler", columns)}, part)
+        self.assertEqual(hover.curves(drawn["limits"].figure)[1].points[2][2:], ("8", "6", "6", "4"))
 
     def test_growth_has_a_panel_per_scheme_and_shows_finite_bounds(self):
         found = (curve(0.9, (1.0, 1.1, 1.2), upper=np.array([1.5, 2.0, 1e300])), curve(2),

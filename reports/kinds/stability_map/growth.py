@@ -1,12 +1,13 @@
 """Growth in time: the max norm of all steps up to t."""
 
+from functools import partial
 import math
 
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import DASHES, GRAY, Drawing, mark_departing, typography
 from kinds import says
 from kinds.stability_map.findings import CAPPED, integrator_of, of_kind, ordered
@@ -19,7 +20,7 @@ def drawings(study):
         return []
     horizon = dict.fromkeys(f'δ = {one.coordinates["delta/h"]:g}h' for one in found)
     return [Drawing(
-        f"{study.name}.growth", f"{study.title}: growth in time", growth_figure(found),
+        f"{study.name}.growth", f"{study.title}: growth in time", partial(growth_figure, found),
         "Plots of the max norm of all steps up to t against t, a panel per scheme, a curve per integrator and CFL "
         "number. Values: the result file.",
         f"Max norm of all steps up to t on uniform starting positions, {' and '.join(filter(None, horizon))}. Pale "
@@ -48,8 +49,10 @@ def growth_figure(found):
                 t, value = finding.points.variable, finding.points.value
                 value = np.where(_positive(value), value, np.nan)
                 # Later curves are thinner, for many agree.
-                panel.plot(t, value, color=SHADES[i % len(SHADES)], linestyle=DASHES[k % len(DASHES)],
-                           linewidth=2.2 - 1.2 * i / max(1, len(integrators) - 1))
+                curve, = panel.plot(t, value, color=SHADES[i % len(SHADES)], linestyle=DASHES[k % len(DASHES)],
+                                   linewidth=2.2 - 1.2 * i / max(1, len(integrators) - 1))
+                hover.mark(curve, integrator_of(finding), f"{finding.subject}, CFL {_cfl(finding)}: {finding.verdict}",
+                           t=t, growth=value)
                 if not finding.as_expected:
                     mark_departing(panel, t, value, 5)
 

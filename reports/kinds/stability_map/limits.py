@@ -1,10 +1,12 @@
 """Sharp limits: the largest CFL numbers at which no step grows beyond its bound, over the horizon."""
 
+from functools import partial
+
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import DASHES, GRAY, MARKERS, Drawing, mark_departing, typography
 from kinds.stability_map.findings import NORM, SEARCH_END, integrator_of, of_kind, ordered, parts, subject_of
 from kinds.stability_map.panels import SHADES, panels
@@ -16,7 +18,7 @@ def drawings(study):
         return []
     arrangements = ordered(found, lambda finding: parts(finding)[0])
     return [Drawing(
-        f"{study.name}.limits", f"{study.title}: sharp limits", limits_figure(found),
+        f"{study.name}.limits", f"{study.title}: sharp limits", partial(limits_figure, found),
         "Log-log plots of the largest CFL number at which no step grows in the max norm beyond its bound against "
         "delta/h, a panel per scheme, a curve per integrator. Values: table below.",
         "Largest CFL number, by bisection, up to which no step grows beyond φ(CΔt) in the max norm, φ the stability "
@@ -92,7 +94,9 @@ def _draw_limit(panel, findings, i):
         panel.plot(x, np.where((rows > 0) & np.isfinite(rows), rows, np.nan), zorder=1, **_ROWS)
     panel.fill_between(x, shown(least), np.minimum(largest, SEARCH_END), color=look["color"], alpha=_BAND, linewidth=0,
                        where=np.isfinite(shown(least)))
-    panel.plot(x, shown(least), **look)
+    curve, = panel.plot(x, shown(least), **look)
+    hover.mark(curve, integrator_of(findings[0]), findings[0].subject,
+               **{"δ/h": x, "largest CFL number": least, "on other particles up to": largest, "by the rows": rows})
     edge = dict(color=look["color"], linestyle="none", transform=panel.get_xaxis_transform(), markersize=5)
     for where, height, marker in ((least >= SEARCH_END, 0.96 - 0.05 * i, "^"), (least == 0, 0.05 + 0.05 * i, "x")):
         if where.any():

@@ -3,6 +3,8 @@
 Reading findings only: every limit and bound that is drawn is one of the result file.
 """
 
+from functools import partial
+
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -58,7 +60,7 @@ def _map_drawing(study, found, arrangement, allowed, part):
     taken_for = "; for a control, of the scheme that it is taken for" if any(one.control for one in drawn) else ""
     return Drawing(
         ".".join(filter(None, (study.name, part))), ": ".join((study.title, " and ".join(lemmas))),
-        map_figure(drawn, study, allowed),
+        partial(map_figure, drawn, study, allowed),
         f"Color maps of the growth of all steps over delta/h and CFL number on {arrangement} particles, a panel per "
         f"scheme and integrator, with the bound of {' and '.join(lemmas)} and the sharp limits. Values: table below.",
         f"Color: max norm of all steps to {until} on {arrangement} particles{relative}; a cell per measured value. Far "

@@ -3,6 +3,7 @@
 import math
 import textwrap
 
+from drawing import hover
 from drawing.look import COLORS, LINE, WIDTH, add_axes, blank, foot_legend
 from kinds.stability_map.findings import ordered, subject_of
 from reading import names
@@ -15,7 +16,7 @@ SHADES = (*COLORS[:4], *COLORS[5:])
 def panels(found, prepare, draw, x_label, y_label, keys, starred=frozenset()):
     """A panel per subject, at most four beside one another; `prepare(panel, inches)`, then `draw(panel, findings)`.
 
-    `keys`: of the legend, [({label: handle}, columns)], one below another.
+    `keys`: of the legend, [({label: handle}, columns)], one below another; the first ones are of series.
     """
     subjects = ordered(found, subject_of)
     across = 3 if len(subjects) in (5, 6) else min(COLUMNS, len(subjects))
@@ -41,7 +42,8 @@ def panels(found, prepare, draw, x_label, y_label, keys, starred=frozenset()):
             panel.set_xlabel(x_label)
         if k == 0:
             panel.set_ylabel(y_label)
-    stacked_legends(figure, left, keys)
+    legend, *_ = stacked_legends(figure, left, keys)
+    hover.mark_legend(legend, keys[0][0])
     return figure
 
 
@@ -51,10 +53,11 @@ def key_height(keys, columns):
 
 def stacked_legends(figure, left, groups):
     """Legends [({label: handle}, columns)] one below another at the foot of the figure."""
-    bottom = 0.1 + sum(key_height(*group) for group in groups)
+    bottom, legends = 0.1 + sum(key_height(*group) for group in groups), []
     for keys, columns in groups:
         bottom -= key_height(keys, columns)
-        foot_legend(figure, left, keys.values(), keys.keys(), columns, spacing=1.6, bottom=bottom)
+        legends.append(foot_legend(figure, left, keys.values(), keys.keys(), columns, spacing=1.6, bottom=bottom))
+    return legends
 
 
 def wrapped(subject, width):

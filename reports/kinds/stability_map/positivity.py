@@ -1,11 +1,12 @@
 """Positivity: the smallest entry of a step over the CFL number."""
 
+from functools import partial
 import math
 
 from matplotlib.lines import Line2D
 import numpy as np
 
-from drawing import axes
+from drawing import axes, hover
 from drawing.look import DASHES, GRAY, MARKERS, Drawing, mark_departing, typography
 from kinds import says
 from kinds.stability_map.findings import integrator_of, of_kind, ordered
@@ -17,7 +18,7 @@ def drawings(study):
     if not found:
         return []
     return [Drawing(
-        f"{study.name}.positivity", f"{study.title}: positivity", positivity_figure(found),
+        f"{study.name}.positivity", f"{study.title}: positivity", partial(positivity_figure, found),
         "Plots of the smallest entry of a step, the worst over delta/h, against the CFL number, a panel per scheme, a "
         "curve per integrator. Values: table below.",
         "Smallest entry of a step, the worst over δ/h; below zero a positive solution can turn negative. Logarithmic "
@@ -56,12 +57,16 @@ def positivity_figure(found):
             for finding in group:
                 style = _entry_style(integrators.index(integrator_of(finding)))
                 x, y, promised = curves[id(finding)]
-                panel.plot(x, y, **(style | {"marker": None}))
+                curve, = panel.plot(x, y, **(style | {"marker": None}))
+                name = integrator_of(finding)
+                hover.mark(curve, name, f"{finding.subject}: {finding.verdict}",
+                           **{"CFL number": x, "smallest entry": y, "part of the horizons with a bound": promised})
                 for share, fill in ((promised == 1, "full"), ((promised > 0) & (promised < 1), "left"),
                                     (promised == 0, "none")):
                     if share.any():
-                        panel.plot(x[share], y[share], **(style | {"linestyle": "none", "fillstyle": fill,
-                                                                   "markerfacecoloralt": "white"}))
+                        marks, = panel.plot(x[share], y[share], **(style | {"linestyle": "none", "fillstyle": fill,
+                                                                            "markerfacecoloralt": "white"}))
+                        hover.mark(marks, name)
                 if not finding.as_expected:
                     mark_departing(panel, x, y, 5)
 

@@ -32,6 +32,7 @@ document.addEventListener("click", (event) => {
   }
 });
 document.addEventListener("toggle", (event) => event.target.open && setUpTables(event.target), true);
+document.addEventListener("contentvisibilityautostatechange", (event) => event.skipped || letScroll(event.target), true);
 window.addEventListener("resize", () => letScroll(document));
 window.addEventListener("popstate", () => state.apply());
 

@@ -123,10 +123,13 @@ function setUpTables(within) {
   letScroll(within);
 }
 
-// What scrolls sideways can be reached by keys, and nothing else takes a stop.
+// What scrolls sideways can be reached by keys, and nothing else takes a stop. Studies that are far from the screen have no
+// layout yet, and asking for it takes seconds: there figures scroll where media.css lets them.
 function letScroll(within) {
+  const narrow = matchMedia("(max-width: 40rem)").matches;
   for (const box of within.querySelectorAll(".scroll, .card:not([role=group])")) {
-    if (box.scrollWidth > box.clientWidth + 1) {
+    const far = box.checkVisibility && !box.checkVisibility({ contentVisibilityAuto: true });
+    if (far ? narrow && box.matches(".card") : box.scrollWidth > box.clientWidth + 1) {
       box.tabIndex = 0;
       box.setAttribute("role", "region");
       box.setAttribute("aria-label", box.firstElementChild.getAttribute("aria-label"));

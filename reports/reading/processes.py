@@ -1,7 +1,6 @@
 """Reading and drawing by several processes."""
 
 from contextlib import contextmanager, suppress
-from functools import partial
 import gc
 from itertools import islice
 import multiprocessing
@@ -9,28 +8,26 @@ from multiprocessing.connection import wait
 import os
 import signal
 
-from drawing import look
-
 
 class DrawingKilled(Exception):
     """A drawing process ended before its drawing did; the text is one line."""
 
 
-def in_turn(tasks, at_most, formats=()):
-    """The rendered drawings of each task (draw, *arguments): an iterator of lists, in the order of the tasks;
-    by `at_most` processes. `formats`: of their files.
+def usable():
+    """How many processes can run at a time."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
-    DrawingKilled if a process of the drawing was killed. Ended early, it leaves no process.
+
+def results(tasks, at_most, work=None, meanwhile=None):
+    """What each task (function, *arguments) gives, or `work` of the task: an iterator in the order of the tasks, by
+    `at_most` processes. `meanwhile()` is called once, in this process, while others are at work.
+
+    DrawingKilled if a process was killed. Ended early, it leaves no process.
     """
-    return results(tasks, at_most, partial(_rendered, formats=formats))
-
-
-def results(tasks, at_most, work=None):
-    """What each task (function, *arguments) gives, or `work` of the task: as in_turn() does."""
-    work = work or _called
-    usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    processes = min(at_most, usable)
+    work, meanwhile = work or called, meanwhile or _nothing
+    processes = min(at_most, usable())
     if processes < 2:
+        meanwhile()
         yield from map(work, tasks)
         return
     # concurrent.futures would wait for what is being drawn after an interrupt, or hang where a process was killed while
@@ -40,7 +37,7 @@ def results(tasks, at_most, work=None):
         for _ in range(processes):
             connection, process = _start(tasks, work)
             workers[connection] = process
-        yield from _in_turn(len(tasks), list(workers))
+        yield from _in_turn(len(tasks), list(workers), meanwhile)
     finally:
         for process in workers.values():
             process.kill()
@@ -72,12 +69,13 @@ def _work(connection, tasks, work):
             connection.send(message)
 
 
-def _in_turn(count, connections):
+def _in_turn(count, connections, meanwhile):
     """What the tasks 0 .. count - 1 give, in this order; a process gets its next task when it is done with the last."""
     left, done = iter(range(count)), {}
     try:
         for connection, i in zip(connections, left):
             connection.send(i)
+        meanwhile()
         for turn in range(count):
             while turn not in done:
                 for connection in wait(connections):
@@ -91,16 +89,14 @@ def _in_turn(count, connections):
         raise DrawingKilled("a drawing process was killed; free memory and draw again") from error
 
 
-def _called(task):
+def called(task):
     function, *arguments = task
     with no_search_for_garbage():
         return function(*arguments)
 
 
-def _rendered(task, formats):
-    draw, *arguments = task
-    with no_search_for_garbage():
-        return [look.render(one, formats) for one in draw(*arguments)]
+def _nothing():
+    """Meanwhile."""
 
 
 @contextmanager

@@ -13,10 +13,10 @@
 #include "studies/commands/command.hpp"
 #include "studies/commands/exit.hpp"
 #include "studies/commands/manual.hpp"
-#include "studies/commands/nearest.hpp"
 #include "studies/commands/say.hpp"
 #include "studies/commands/terminal.hpp"
 #include "studies/reading/input_error.hpp"
+#include "studies/reading/nearest.hpp"
 #include "studies/storing/store_error.hpp"
 
 namespace acstudy {
@@ -100,7 +100,9 @@ int refuse(const std::string& message, const std::string& command = "") {
 
 int refuse(const CLI::App& app, const CLI::ParseError& error, const std::vector<Command>& commands, const char* first) {
   const auto used = app.get_subcommands();
-  if (first == nullptr) return refuse(error.what());
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.name);
+  if (first == nullptr) return refuse(fmt::format("no command; write one of {}", fmt::join(names, ", ")));
   if (!used.empty()) {
     const std::string& name = used.front()->get_name();
     const auto named = [&](const Command& command) { return command.name == name; };
@@ -111,8 +113,6 @@ int refuse(const CLI::App& app, const CLI::ParseError& error, const std::vector<
     return refuse(fmt::format("unknown option {}{}", in_quotes(first),
                               nearest.empty() ? "; options stand behind a command" : nearest));
   }
-  std::vector<std::string> names;
-  for (const Command& command : commands) names.push_back(command.name);
   const std::string nearest = did_you_mean(first, names);
   return refuse(fmt::format("unknown command {}{}", in_quotes(first),
                             nearest.empty() ? fmt::format("; write one of {}", fmt::join(names, ", ")) : nearest));

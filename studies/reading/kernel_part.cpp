@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "studies/reading/nearest.hpp"
 #include "studies/reading/shared_tables.hpp"
 #include "studies/reading/study_parts.hpp"
 
@@ -80,8 +81,8 @@ KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
   static const toml::table no_table;
   const toml::table* const table = node.as_table();
   const Table inner(table != nullptr ? *table : no_table, "kernel", scheme.file());
-  std::vector<std::string_view> names;
-  for (const NamedKernel& known : named_kernels) names.push_back(known.name);
+  std::vector<std::string> names;
+  for (const NamedKernel& known : named_kernels) names.emplace_back(known.name);
   const toml::node* name_node = &node;
   if (table != nullptr) {
     inner.allow(scheme_keys, "kernel");
@@ -99,7 +100,8 @@ KernelChoice read_kernel(const Table& scheme, const ModelCard& model) {
   const NamedKernel* const row = find_kernel(kernel.name);
   if (row == nullptr) {
     scheme.place(*name_node)
-        .fail(fmt::format("unknown kernel {}; known kernels: {}", in_quotes(kernel.name), fmt::join(names, ", ")));
+        .fail(fmt::format("unknown kernel {}; known kernels: {}{}", in_quotes(kernel.name), fmt::join(names, ", "),
+                          did_you_mean(kernel.name, names)));
   }
   for (const NamedKernel& known : named_kernels) {
     const std::string key(known.parameter ? known.parameter->name() : "");

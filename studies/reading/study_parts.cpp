@@ -9,6 +9,7 @@
 #include "studies/models/control_choice.hpp"
 #include "studies/models/outside_program.hpp"
 #include "studies/models/theory.hpp"
+#include "studies/reading/nearest.hpp"
 #include "studies/reading/program_part.hpp"
 #include "studies/reading/shared_tables.hpp"
 
@@ -55,8 +56,8 @@ std::shared_ptr<const Scene> read_scene(const Table& table, Solution solution) {
     for (const auto& scene : named_scenes()) known.push_back(scene.name);
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
-      table.place(*named).fail(
-          fmt::format("unknown scene {}; known scenes: {}", in_quotes(name), fmt::join(known, ", ")));
+      table.place(*named).fail(fmt::format("unknown scene {}; known scenes: {}{}", in_quotes(name),
+                                           fmt::join(known, ", "), did_you_mean(name, known)));
     }
     text = named_scenes()[found - known.begin()];
   }

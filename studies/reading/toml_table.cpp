@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "studies/reading/nearest.hpp"
+
 namespace acstudy {
 
 namespace {
@@ -57,6 +59,7 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
 }
 
 std::string Place::text(const std::string& message) const {
+  if (file == of_options) return fmt::format("{}: {}", file, on_one_line(message));
   return fmt::format("{}:{}:{}: {}", file, line, column, on_one_line(message));
 }
 
@@ -66,8 +69,8 @@ void Table::allow(const std::vector<std::string>& known) const {
   for (const auto& [key, value] : table_) {
     if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
       at(key.source())
-          .fail(fmt::format("unknown key {} in {}; known keys: {}", in_quotes(key.str()), title_,
-                            fmt::join(known, ", ")));
+          .fail(fmt::format("unknown key {} in {}; known keys: {}{}", in_quotes(key.str()), title_,
+                            fmt::join(known, ", "), did_you_mean(key.str(), known)));
     }
   }
 }
@@ -86,6 +89,13 @@ const toml::node& Table::need(std::string_view key, std::string_view example) co
   const toml::node* const node = find(key);
   if (node == nullptr) miss(fmt::format("{} has no \"{}\"; write, for example, {}", title_, key, example), example);
   return *node;
+}
+
+void Table::refuse(std::string_view key, const toml::node& node, const std::vector<std::string>& known) const {
+  std::vector<std::string> quoted;
+  for (const std::string& word : known) quoted.push_back('"' + word + '"');
+  place(node).fail(fmt::format("{} = {}; it must be one of {}{}", key, described(node), fmt::join(quoted, ", "),
+                               did_you_mean(node.value_or(std::string()), known)));
 }
 
 void Table::miss(const std::string& message, std::string_view example) const {

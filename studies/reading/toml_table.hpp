@@ -19,6 +19,9 @@
 
 namespace acstudy {
 
+/// In place of a file, for text that has no lines: options of a command.
+inline constexpr const char* of_options = "the command line";
+
 /// A place in a study file.
 struct Place {
   std::string file;
@@ -101,12 +104,12 @@ class Table {
   template <class T>
   T choice(std::string_view key, const toml::node& node, const std::vector<std::pair<std::string, T>>& words) const {
     const auto value = node.value_exact<std::string>();
-    std::vector<std::string> quoted;
+    std::vector<std::string> known;
     for (const auto& [word, meaning] : words) {
       if (value && *value == word) return meaning;
-      quoted.push_back("\"" + word + "\"");
+      known.push_back(word);
     }
-    place(node).fail(fmt::format("{} = {}; it must be one of {}", key, described(node), fmt::join(quoted, ", ")));
+    refuse(key, node, known);
   }
 
   /// The tables of an array such as [[scheme]], at least one.
@@ -117,6 +120,7 @@ class Table {
   static std::string described(const toml::node& node);
 
  private:
+  [[noreturn]] void refuse(std::string_view key, const toml::node& node, const std::vector<std::string>& known) const;
   Place at(const toml::source_region& region) const { return {file_, region.begin.line, region.begin.column}; }
 
   const toml::table& table_;

@@ -114,7 +114,7 @@ class BadUsage(ProgramTest):
     def test_one_line_that_names_the_argument(self):
         self.write("good.toml", STUDY)
         run = ("run", "good.toml", "--out", "out")
-        for arguments, named in (((), "subcommand"), (("frobnicate",), "frobnicate"),
+        for arguments, named in (((), "no command"), (("frobnicate",), "frobnicate"),
                                  (("--frobnicate",), "--frobnicate"),
                                  (("run",), "STUDY.toml"), (("check",), "FILE.json"), (("explain",), "STUDY.toml"),
                                  ((*run, "--jobs", "0"), "--jobs: Value 0"),

@@ -24,7 +24,8 @@ MISTAKES = {
                                   'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, mu, '
                                   'command, label, order, expect, timeout, inputs'),
     "unknown key of a kernel": (kernel('{ name = "power", alpha = 0.5, @beta = 1 }'),
-                                'unknown key "beta" in kernel; known keys: name, alpha, profile, eta, breaks, exponent'),
+                                'unknown key "beta" in kernel; known keys: name, alpha, profile, eta, breaks, exponent; '
+                                'did you mean "eta"?'),
     "unknown key in [time]": (bad(("step =", "@dt =")), 'unknown key "dt" in [time]; known keys: integrator, step, '
                               'safety, bound, tolerance, first, limit, expect'),
     "unknown key in [[path]]": (bad((SOURCE, '@target = "local"')),
@@ -137,7 +138,7 @@ MISTAKES = {
                         'title must be a string, not an array; write, for example, title = "..."'),
     "unknown scene": (bad((USE, 'use = @"lee-du"')),
                       'unknown scene "lee-du"; known scenes: lee-du-2019, standing-variable-velocity, '
-                      "constant-velocity, lagrangian"),
+                      'constant-velocity, lagrangian; did you mean "lee-du-2019"?'),
     "model 3": (bad(("model = 1", "model = @3")), "model = 3; it must be 1 or 2"),
     "model is a string": (bad(("model = 1", 'model = @"1"')), 'model = "1"; it must be 1 or 2'),
     "model is a real number": (bad(("model = 1", "model = @1.0")), "model = 1.0; it must be 1 or 2"),

@@ -45,7 +45,7 @@ MISTAKES = {
     # Digits
     "scheme in a study of weights": (bad(("[digits]", '[[@scheme]]\nmodel = 1\n\n[digits]'), of=DIGITS),
                                      'unknown key "scheme" in the study; known keys: study, weights, digits, scene, '
-                                     'gaps'),
+                                     'gaps; did you mean "scene"?'),
     "divergence of weights": (bad(("model = 1", 'model = 1\n@divergence = "local"'), of=DIGITS),
                               'unknown key "divergence" in [[weights]]; known keys: model, kernel'),
     "weights of Model II with a singular kernel": (

@@ -24,11 +24,11 @@ MISTAKES = {
                                 "levels are added where u is known, as a reference has to be finer than all of them; write "
                                 "N = [160, 320, 640, 1280]"),
     # Schemes
-    "unknown kernel": (kernel('@"gauss"'), f'unknown kernel "gauss"; known kernels: {KERNELS}'),
+    "unknown kernel": (kernel('@"gauss"'), f'unknown kernel "gauss"; known kernels: {KERNELS}; did you mean "gaussian"?'),
     "unknown kernel in a table": (kernel('{ name = @"gauss" }'),
-                                  f'unknown kernel "gauss"; known kernels: {KERNELS}'),
+                                  f'unknown kernel "gauss"; known kernels: {KERNELS}; did you mean "gaussian"?'),
     "unknown kernel with an exponent": (kernel('{ name = @"gauss", alpha = 0.5 }'),
-                                        f'unknown kernel "gauss"; known kernels: {KERNELS}'),
+                                        f'unknown kernel "gauss"; known kernels: {KERNELS}; did you mean "gaussian"?'),
     "kernel is a number": (kernel("@3"), 'kernel must be a string, not 3; write, for example, kernel = "inverse"'),
     "kernel without name": (kernel("@{ alpha = 0.5 }"),
                             'kernel has no "name"; write, for example, { name = "power", alpha = 0.5 }'),

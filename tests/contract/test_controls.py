@@ -77,7 +77,7 @@ STUDIES = {
         '{ model = 2, divergence = "local", ... }'),
     "an unknown check": (TINY + '[control.expect]\n@"delta = h" = "below"\n',
                          'unknown key "delta = h" in [expect]; known keys: delta = 4h, consistency, delta = 4h, '
-                         "nearest neighbors, first moment, step norm, maximum principle, trajectories"),
+                         'nearest neighbors, first moment, step norm, maximum principle, trajectories; did you mean "delta = 4h"?'),
     "an expectation of all rows": (
         edit(TINY, ('"4*h"\nN = [20, 40, 80]\n', '"4*h"\nN = [20, 40, 80]\nexpect = @"below"\n')),
         "a path of this kind of study has no expect; expectations stand in a table expect of their [[control]]"),

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "studies/commands/nearest.hpp"
+#include "studies/reading/nearest.hpp"
 #include "studies/commands/run/summary.hpp"
 #include "studies/commands/seconds.hpp"
 #include "studies/commands/terminal.hpp"

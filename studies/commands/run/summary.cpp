@@ -85,7 +85,7 @@ std::string slowest_text(const RunSummary& summary, std::size_t width) {
   std::vector<std::string> said;
   for (const auto& [study, seconds] : slowest) said.push_back(fmt::format("{} {}", study, seconds_text(seconds)));
   const std::string all = seconds_text(summary.seconds);
-  if (summary.studies < 2 || said.empty()) return all + "\n";
+  if (summary.studies < 2 || said.empty()) return all + " in all\n";
   return wrapped(fmt::format("{}; longest, in time of a processor: {}", all, fmt::join(said, ", ")), width, 2) + "\n";
 }
 

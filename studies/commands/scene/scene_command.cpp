@@ -23,13 +23,11 @@ struct SceneRequest {
   std::optional<double> delta, mu, time;
 };
 
-constexpr const char* command_line = "the command line";
-
 /// A named scene, or that of a study file.
 std::shared_ptr<const Scene> scene_of(const std::string& name) {
   if (name.find_first_of("./") == std::string::npos) {
-    const toml::table document = parse_toml(fmt::format("[scene]\nuse = '{}'\n", name), command_line);
-    return read_scene(Table(document, "the command line", command_line).sub_table("scene"));
+    const toml::table document = parse_toml(fmt::format("[scene]\nuse = '{}'\n", name), of_options);
+    return read_scene(Table(document, of_options, of_options).sub_table("scene"));
   }
   std::ifstream in(name, std::ios::binary);
   std::ostringstream text;
@@ -51,8 +49,8 @@ SchemeEntry scheme_of(const SceneRequest& request, const Scene& scene) {
     text += table ? fmt::format("kernel = {}\n", *request.kernel) : fmt::format("kernel = \"{}\"\n", *request.kernel);
   }
   if (request.mu) text += fmt::format("mu = {:.17g}\n", *request.mu);
-  const toml::table document = parse_toml(text, command_line);
-  return read_schemes(Table(document, "the command line", command_line), scene).front();
+  const toml::table document = parse_toml(text, of_options);
+  return read_schemes(Table(document, of_options, of_options), scene).front();
 }
 
 /// Absent: the source is local, or given.

@@ -1,4 +1,4 @@
-#include "studies/commands/nearest.hpp"
+#include "studies/reading/nearest.hpp"
 
 #include <fmt/format.h>
 
@@ -29,6 +29,7 @@ std::string did_you_mean(std::string_view written, const std::vector<std::string
   for (const std::string& word : words) {
     const bool begins = written.size() > 2 && word.starts_with(written);
     const std::size_t distance = begins ? 0 : edit_distance(written, word);
+    if (distance >= std::min(written.size(), word.size())) continue;  // no letter of it is left
     if (distance < least) {
       least = distance;
       nearest = &word;

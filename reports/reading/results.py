@@ -6,6 +6,7 @@ Reading only: nothing here computes, draws or writes. The layout is the format "
 from pathlib import Path
 import math
 import re
+import zlib
 
 import h5py
 import numpy as np
@@ -28,6 +29,8 @@ class ResultError(Exception):
 def read_study(path):
     """The study in the result file `path`; ResultError if the file is missing, damaged or of another format."""
     path = Path(path)
+    if path.is_file() and not _is_whole(path):
+        raise ResultError(f"{path}: not as it was written: damaged, or changed by another program; run the study again")
     try:
         # Read at once: a file has thousands of small groups.
         with h5py.File(path, "r", driver="core", backing_store=False) as file:
@@ -41,6 +44,17 @@ def read_study(path):
     except (KeyError, RuntimeError, TypeError, ValueError) as error:
         reason = " ".join(str(error).strip("'\"").split())
         raise ResultError(f"{path}: {reason}; run the study again") from error
+
+
+def _is_whole(path):
+    """Whether the words in front of an HDF5 file are those of what follows them; true without any."""
+    with open(path, "rb") as file:
+        words = file.read(512)
+        if not words.startswith(b"acstudy: crc32 "):
+            return True
+        content = file.read()
+    said = f"acstudy: crc32 {zlib.crc32(content):08x} of the {len(content)} bytes after these 512\n"
+    return words.startswith(said.encode())
 
 
 def _study(path, file):

@@ -80,18 +80,13 @@ class Runner {
         failure_ = failure;
       });
     }
+    const std::exception_ptr unsaved = options_.shard.whole() ? nullptr : journals_->save();
     // What is left running waits for this lock at its end, and that of the program.
     auto* const lock = new std::unique_lock(mutex_);
-    std::exception_ptr failure = run_.left_running ? nullptr : failure_;
+    std::exception_ptr failure = run_.left_running || failure_ == nullptr ? unsaved : failure_;
     progress_.reset();
     // What is done is stored before anything is said of what went wrong.
     run_.interrupted = stop_;
-    if (!options_.shard.whole()) {
-      lock->unlock();
-      const std::exception_ptr unsaved = journals_->save();
-      if (!failure) failure = unsaved;
-      lock->lock();
-    }
     for (std::size_t s = 0; s < studies_.size() && options_.shard.whole(); ++s) {
       if (journals_->finished(s)) continue;
       try {

@@ -128,12 +128,12 @@ def of_shares(kills, folder, count):
 def of_benches(kills, folder, count):
     """A bench: its errors and work are those of another, and its samples are all there."""
     (folder / "bench.toml").write_text(BENCH, encoding="utf-8")
-    bench = ["bench", "bench.toml", "--runs", "20", "--least-seconds", "0", "--quiet"]
+    bench = ["bench", "bench.toml", "--runs", "400", "--least-seconds", "0", "--quiet"]
     done = 0
     while done < count:
         shutil.rmtree(folder / "bench", ignore_errors=True)
         for _ in range(min(count - done, 12)):
-            done += kills.killed(folder, [*bench, "--out", "bench"], 2.0)
+            done += kills.killed(folder, [*bench, "--out", "bench"], 1.0)
         kills.finish(folder, [*bench, "--out", "bench"])
         kills.expect((folder / "bench" / "bench.json").exists(), "bench: no result")
     return done

@@ -22,7 +22,7 @@ gate_studies = $(filter-out studies/pollution.toml,$(wildcard studies/*.toml))
 # Those whose errors are compared, with finer levels, and those that show how run times scale.
 bench_studies = $(wildcard studies/fig*.toml studies/bench/fine-*.toml) studies/bench/scaling-n.toml studies/bench/scaling-horizon.toml
 
-.PHONY: help studies test check mutants bench compare deep build format format-check clean compiled compiled-tests drawable
+.PHONY: help studies test check mutants kills bench compare deep build format format-check clean compiled compiled-tests drawable
 
 help:  ## lists the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -56,6 +56,10 @@ mutants:  ## tests the tests: each mistake planted in a copy of the sources has 
 	@status=0; scripts/mutants.py --out "$(OUT)/mutants" --jobs $(JOBS) || status=$$?; \
 	if ls "$(OUT)"/*.h5 >/dev/null 2>&1; then "$$(scripts/find-python.sh)" reports/report.py "$(OUT)" || \
 		[ $$status -ne 0 ] || status=4; fi; exit $$status
+
+kills: build  ## kills runs, shares, merges and benches 500 times at random and lets them go on: nothing may be lost (some 10 minutes)
+	$(setup) report
+	@"$$(scripts/find-python.sh)" scripts/kills.py --acstudy $(acstudy)
 
 # Those that step in several ways. That some of these blow up (3) is part of the answer.
 way_studies = $(wildcard studies/bench/stiff-*-timed.toml)

@@ -6,6 +6,7 @@ from pathlib import Path
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 import h5py
 import numpy as np
@@ -145,6 +146,13 @@ def numbers(path):
     with h5py.File(path, "r") as file:
         file.visititems(visit)
     return content
+
+
+def reseal(path):
+    """Makes a result file that h5py has changed one that the program takes for its own."""
+    content = path.read_bytes()
+    words = f"acstudy: crc32 {zlib.crc32(content[512:]):08x} of the {len(content) - 512} bytes after these 512\n"
+    path.write_bytes(words.encode().ljust(512, b"\0") + content[512:])
 
 
 def install(prefix):

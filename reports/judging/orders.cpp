@@ -33,6 +33,10 @@ constexpr NamedVerdict names[] = {
 
 /// Errors of this size are round-off of a solution of size one, accumulated over a run.
 constexpr double round_off = 1e-12;
+
+/// Levels that are closer together, from the first to the last, tell an order as little as one level does: over so
+/// little all laws are alike, and errors wander more than they fall.
+constexpr double least_refinement = 1.2;
 /// A verdict that needs no fit: levels that are no refinement, errors that are no errors, too few of them.
 std::optional<Conclusion> unusable(LevelView levels, const JudgeOptions& options) {
   const double floor = std::max(options.floor.value_or(0.0), round_off * options.scale.value_or(0.0));
@@ -69,6 +73,10 @@ std::optional<Conclusion> unusable(LevelView levels, const JudgeOptions& options
                                       ? fmt::format("at the known floor of {:.2g}", *options.floor)
                                   : options.scale ? fmt::format("round-off of a solution of {:.2g}", *options.scale)
                                                   : "exactly zero")};
+  }
+  if (const double total = levels.front().variable / levels.back().variable; total < least_refinement) {
+    return inconclusive(fmt::format("the variable falls by a factor of {:.3g} in all; an order takes {:g} at least",
+                                    total, least_refinement));
   }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     if (levels[i].error == 0.0) {

@@ -8,6 +8,7 @@ from itertools import islice, zip_longest
 import math
 from pathlib import Path
 import re
+import zlib
 
 import h5py
 import numpy as np
@@ -33,6 +34,8 @@ def read_study(path, share=(0, 1)):
     share: (k, n) for the findings and series k, k + n, k + 2n, ... alone, see joined().
     """
     path = Path(path)
+    if path.is_file() and not _is_whole(path):
+        raise ResultError(f"{path}: not as it was written: damaged, or changed by another program; run the study again")
     try:
         # Read at once: a file has thousands of small groups.
         with h5py.File(path, "r", driver="core", backing_store=False) as file:
@@ -46,6 +49,17 @@ def read_study(path, share=(0, 1)):
     except (KeyError, RuntimeError, TypeError, ValueError) as error:
         reason = " ".join(str(error).strip("'\"").split())
         raise ResultError(f"{path}: {reason}; run the study again") from error
+
+
+def _is_whole(path):
+    """Whether the words in front of an HDF5 file are those of what follows them; true without any."""
+    with open(path, "rb") as file:
+        words = file.read(512)
+        if not words.startswith(b"acstudy: crc32 "):
+            return True
+        content = file.read()
+    said = f"acstudy: crc32 {zlib.crc32(content):08x} of the {len(content)} bytes after these 512\n"
+    return words.startswith(said.encode())
 
 
 def _study(path, file, share):

@@ -33,6 +33,8 @@ struct StepsAgainstBound {
   double first_place = std::numeric_limits<double>::quiet_NaN();  ///< left end of the smallest gap then
 };
 
+/// How the failure of a run begins for which there was not enough memory.
+inline constexpr std::string_view over_memory = "there is not enough memory for ";
 /// How the failure of a run begins that was ended because it took longer than its limit.
 inline constexpr std::string_view over_limit = "took longer than its limit of ";
 

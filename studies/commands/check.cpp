@@ -54,6 +54,17 @@ std::vector<Row> check_file(const std::string& file) {
                     .reason = reason,
                     .passes = false});
   }
+  // Where something departs anyway, that is what there is to look at.
+  if (all.damaged && departing_in(rows) == 0) {
+    rows.push_back({.file = file,
+                    .study = all.study,
+                    .name = "the file",
+                    .observed = "-",
+                    .verdict = "damaged",
+                    .expected = "a file as it was written",
+                    .reason = "its checksum is not that of its values: it was damaged or edited; run the study again",
+                    .passes = false});
+  }
   return rows;
 }
 

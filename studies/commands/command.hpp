@@ -55,8 +55,10 @@ Option verbose_option(bool* target, const std::string& help);
 Option quiet_option(bool* target, const std::string& help);
 
 Command run_command();
+Command merge_command();
 Command check_command();
 Command compare_command();
+Command verify_command();
 Command fit_command();
 Command bench_command();
 Command explain_command();

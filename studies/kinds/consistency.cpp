@@ -11,7 +11,7 @@ namespace {
 
 void read_consistency(const Table& root, Study& study) {
   study.scene = read_scene(root.sub_table("scene"));
-  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene, 1);
   std::vector<PathChoice> paths;
   for (const Table& table : root.array_of_tables("path")) {
     const PathChoice& path = paths.emplace_back(read_path(table));

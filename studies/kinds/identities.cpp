@@ -12,7 +12,7 @@ namespace {
 
 void read_identities(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
-  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene, 9);  // one ratio is 4
   std::vector<Measurement>& all = study.measurements;
   std::set<std::string> kernels;
   for (const Subject& subject : read_subjects(root, study.scene)) {

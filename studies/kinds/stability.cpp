@@ -14,7 +14,7 @@ namespace {
 
 void read_stability(const Table& root, Study& study) {
   study.scene = read_scene_with_advection(root.sub_table("scene"));
-  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene);
+  const Resolutions resolutions = read_resolutions(root.sub_table("sweep"), *study.scene, 4);  // one horizon is 2h
   const std::vector<Subject> subjects = read_subjects(root, study.scene);
 
   // The kernels with which Lemma 3.3 as printed is expected to fail.

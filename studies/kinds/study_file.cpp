@@ -106,6 +106,15 @@ Study read_document(const toml::table& document, const std::string& text, const 
         .fail(fmt::format("name = {}; it names result files and may have at most {} letters: write a shorter one",
                           in_quotes(study.name), most_letters));
   }
+  if (study.name.front() == '-') {
+    header.place(*header.find("name"))
+        .fail(fmt::format("name = {}; a command would take {}.json for an option: begin with a letter or a digit",
+                          in_quotes(study.name), study.name));
+  }
+  if (study.name == "bench") {
+    header.place(*header.find("name"))
+        .fail("name = \"bench\"; acstudy bench gives that name to its files, choose another");
+  }
   if (study.name == "cost") {
     header.place(*header.find("name"))
         .fail("name = \"cost\"; the report gives that name to its run-time figure, choose another");

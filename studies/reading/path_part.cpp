@@ -160,6 +160,11 @@ PathChoice read_path(const Table& table, const PathRules& rules) {
                   .order = std::nullopt};
   read_source(table, path, rules.solved);
   if (path.name.empty()) table.place(name).fail("a path needs a name, for example \"delta = 4h\"");
+  constexpr std::size_t most_letters = 200;  // it stands in tables, figures and names of checks
+  if (path.name.size() > most_letters) {
+    table.place(name).fail(fmt::format("name = {}; a path may have at most {} letters: write a shorter one",
+                                       in_quotes(path.name), most_letters));
+  }
   if (const toml::node* const expect = table.find("expect")) {
     path.expect = read_expected(table, *expect);
   }

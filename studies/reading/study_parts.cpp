@@ -218,8 +218,21 @@ SchemeEntry read_control(const Table& table, const Scene& scene) {
   return {scheme, scheme.model->viscous ? scheme.mu.value_or(scene.max_relative_velocity()) : 0.0};
 }
 
-Resolutions read_resolutions(const Table& table, const Scene& scene) {
+Resolutions read_resolutions(const Table& table, const Scene& scene, std::int64_t fewest) {
   Resolutions resolutions{read_levels(table), read_positive(table, "ratios", "ratios = [0.01, 0.5, 1, 4, 30]"), {}};
+  const std::int64_t N = resolutions.N.front();
+  if (N < fewest) {
+    table.place(*table.find("N"))
+        .fail(fmt::format(
+            "N = {}; a study of this kind looks at horizons that are half the period or more with fewer than "
+            "{} particles: leave it out",
+            N, fewest));
+  }
+  if (resolutions.deltas(N, scene.period()).empty() && table.find("horizons") == nullptr) {
+    table.place(*table.find("ratios"))
+        .fail(fmt::format("none of these horizons stays below half the period at N = {}; write a ratio below {}", N,
+                          0.5 * static_cast<double>(N)));
+  }
   if (table.find("horizons") != nullptr) {
     resolutions.horizons = read_positive(table, "horizons", "horizons = [0.2]");
     for (const double delta : resolutions.horizons) {

@@ -51,7 +51,8 @@ std::vector<double> read_positive(const Table& table, std::string_view key, std:
 SchemeEntry read_control(const Table& table, const Scene& scene);
 
 /// [sweep]: N, ratios and, optionally, horizons, each below half the period.
-Resolutions read_resolutions(const Table& table, const Scene& scene);
+/// @param fewest  particles that a study of this kind takes
+Resolutions read_resolutions(const Table& table, const Scene& scene, std::int64_t fewest);
 
 /// Fails unless 0 < delta < period / 2.  @param at  the place to blame
 void check_horizon(const Scene& scene, std::int64_t N, double delta, const Place& at);

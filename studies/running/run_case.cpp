@@ -1,8 +1,11 @@
 #include "studies/running/run_case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 
@@ -53,6 +56,9 @@ std::vector<CaseResult> run_together(std::span<const Plan> plans, int threads, c
     if (plans.front().form->together) return run_ensemble(plans, threads, stop, most_seconds);
     const Case& c = *plans.front().c;
     return {c.scheme.program != nullptr ? run_program(c, stop) : run_readable(c, stop)};
+  } catch (const std::bad_alloc&) {
+    const Case& c = *plans.front().c;
+    failure = fmt::format("{}N = {}, about {:.0f} MB", over_memory, c.N, 1e-6 * (c.working_bytes() + c.result_bytes()));
   } catch (const std::domain_error& error) {
     failure = error.what();
   } catch (const std::runtime_error& error) {

@@ -12,6 +12,7 @@
 #include "studies/storing/h5_columns.hpp"
 #include "studies/storing/json_form.hpp"
 #include "studies/storing/keys.hpp"
+#include "studies/storing/seal.hpp"
 
 namespace acstudy {
 
@@ -109,7 +110,7 @@ std::string bench_json(const Bench& bench, const BenchOptions& options, const Pr
   for (const BenchCase& one : bench.cases) {
     if (one.result.completed) root["cases"].push_back(case_json(one));
   }
-  return json_form::pretty(root) + "\n";
+  return sealed(json_form::pretty(root)) + "\n";
 }
 
 void write_bench_case(hid_t parent, const std::string& name, const BenchCase& one) {
@@ -125,7 +126,7 @@ void write_bench_case(hid_t parent, const std::string& name, const BenchCase& on
 
 std::vector<char> bench_h5(const Bench& bench, const BenchOptions& options, const Provenance& provenance,
                            bool complete) {
-  const h5::Handle root = h5::create_file_in_memory("bench.h5");
+  const h5::Handle root = h5::create_file_in_memory();
   h5::write_text(root, "format", bench_format);
   h5::write_number<std::int64_t>(root, "complete", complete ? 1 : 0);
   h5::write_number(root, "runs", options.runs);
@@ -140,7 +141,7 @@ std::vector<char> bench_h5(const Bench& bench, const BenchOptions& options, cons
     h5::write_column<std::int64_t>(group, "cases", cases_of(bench.series[i], places));
   }
   for (const auto& [i, place] : places) write_bench_case(cases, fmt::format("{:04}", place), bench.cases[i]);
-  return h5::image(root);
+  return sealed(h5::image(root));
 }
 
 void read_bench_case(hid_t group, BenchCase& one) {
@@ -167,7 +168,9 @@ std::size_t take_up_bench(const fs::path& out, Bench& bench) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   std::size_t taken = 0;
   try {
-    const h5::Handle root(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open it");
+    const std::vector<char> bytes = bytes_of(file);
+    if (seal_of(bytes) == Seal::broken) throw StoreError("it is not as it was written");
+    const h5::Handle root = h5::open_image(bytes);
     if (h5::read_text(root, "format") != bench_format) {
       throw StoreError("its format is not " + std::string(bench_format));
     }

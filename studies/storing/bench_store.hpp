@@ -23,7 +23,7 @@ void write_bench(const std::filesystem::path& out, const Bench& bench, const Ben
 
 /// Gives the cases of `bench` the results and samples that `<out>/bench.h5` has of them, if there is such a file and it
 /// is of this machine. Returns how many got some.
-/// @throws StoreError if the file is there but is no bench
+/// @throws StoreError if the file is there but is no bench, or not as it was written
 std::size_t take_up_bench(const std::filesystem::path& out, Bench& bench);
 
 }  // namespace acstudy

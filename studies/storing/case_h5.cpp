@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "studies/storing/case_checksum.hpp"
 #include "studies/storing/h5_columns.hpp"
 #include "studies/storing/keys.hpp"
 
@@ -20,19 +21,6 @@ void for_each(Result& result, Visit&& visit) {
 
 }  // namespace
 
-void write_case(hid_t parent, const std::string& group_name, const std::string& key, const CaseResult& result) {
-  const h5::Handle group = h5::create_group(parent, group_name);
-  h5::write_text(group, "key", key);
-  CaseResult::stored(result, [&](const Stored& as, const auto& value) { h5::write(group, as.column(), value); });
-}
-
-CaseResult read_case(hid_t group) {
-  CaseResult result;
-  result.completed = true;
-  CaseResult::stored(result, [&](const Stored& as, auto& value) { h5::read(group, as.column(), value); });
-  return result;
-}
-
 void write_cases(hid_t group, const SeriesResult& result, const std::vector<std::size_t>& indices) {
   const Series& series = *result.series;
   using Entry = std::pair<const Case*, const CaseResult*>;
@@ -46,17 +34,24 @@ void write_cases(hid_t group, const SeriesResult& result, const std::vector<std:
     for_each<true>(*r, visit);
   });
 
+  std::vector<std::string> keys;
+  std::vector<std::int64_t> numbers, times;
   const h5::Handle cases = h5::create_group(group, "cases");
   for (const auto& [c, r] : entries) {
     const h5::Handle one = h5::create_group(cases, std::to_string(c->N));
-    h5::write_text(one, "key", storage_key(*c));
+    keys.push_back(storage_key(*c));
+    const CaseChecksum sum = case_checksum(keys.back(), *r, !series.against_reference);
+    numbers.push_back(sum.numbers);
+    times.push_back(sum.times);
     for_each<false>(*r, [&](const std::string& name, const auto& value) {
+      if (value.empty()) return;
       // What a reference gives is found anew, so that it has a name that is not read back.
-      const bool found_anew = series.against_reference && name == "u_exact";
-      if (!found_anew) return h5::write(one, name, value);
-      if (!value.empty()) h5::write(one, "u_reference", value);
+      h5::write(one, series.against_reference && name == "u_exact" ? "u_reference" : name, value);
     });
   }
+  h5::write_text_column(group, "key", keys);
+  h5::write_column<std::int64_t>(group, "checksum", numbers);
+  h5::write_column<std::int64_t>(group, "seconds_checksum", times);
 }
 
 namespace {
@@ -70,15 +65,26 @@ std::vector<CaseResult> read_numbers(hid_t group, std::size_t count) {
 
 }  // namespace
 
-void read_cases(hid_t group, StoredCases& stored) {
+void read_cases(hid_t group, bool trusted, StoredCases& stored, std::vector<std::int64_t>& damaged) {
   const h5::Handle cases = h5::open_group(group, "cases");
-  const auto N = h5::read_column<std::int64_t>(group, "N");
+  const auto N = h5::read_column<std::int64_t>(group, "N"), numbers = h5::read_column<std::int64_t>(group, "checksum"),
+             times = h5::read_column<std::int64_t>(group, "seconds_checksum");
+  const auto keys = h5::read_text_column(group, "key");
   std::vector<CaseResult> results = read_numbers(group, N.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
-    results[i].completed = true;
-    for_each<false>(results[i], [&](const std::string& name, auto& value) { h5::read(one, name, value); });
-    stored.cases[h5::read_text(one, "key")] = std::move(results[i]);
+    CaseResult& result = results[i];
+    try {
+      const h5::Handle one = h5::open_group(cases, std::to_string(N[i]));
+      result.completed = true;
+      for_each<false>(result, [&](const std::string& name, auto& value) { h5::read(one, name, value); });
+      const CaseChecksum sum{numbers.at(i), times.at(i)};
+      if (!trusted && case_checksum(keys.at(i), result, true) != sum) throw StoreError("it is damaged");
+    } catch (const std::exception&) {
+      if (trusted) throw;
+      damaged.push_back(N[i]);
+      continue;
+    }
+    stored.cases.insert_or_assign(keys.at(i), std::move(result));
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// How cases are written to HDF5: by themselves in the journal, as columns in result files.
+/// How cases are written to HDF5.
 
 #include <string>
 #include <vector>
@@ -13,15 +13,12 @@
 
 namespace acstudy {
 
-/// A case by itself: its fields as columns, all else as attributes.
-void write_case(hid_t parent, const std::string& group_name, const std::string& key, const CaseResult& result);
-/// @throws StoreError
-CaseResult read_case(hid_t group);
-
 /// A column for each of the results of these cases, and their fields.
 void write_cases(hid_t group, const SeriesResult& result, const std::vector<std::size_t>& indices);
 /// What `write_cases` has written, by storage key.
-void read_cases(hid_t group, StoredCases& stored);
+/// @param trusted  the file is as it was written; otherwise cases are held against their checksums
+/// @param damaged  gets N of those that are not as they were written
+void read_cases(hid_t group, bool trusted, StoredCases& stored, std::vector<std::int64_t>& damaged);
 /// The same without the fields, as records.
 std::vector<CaseRecord> read_case_records(hid_t group);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "studies/storing/content_checksum.hpp"
 #include "studies/storing/estimates.hpp"
 #include "studies/storing/h5_columns.hpp"
 
@@ -101,6 +102,7 @@ void write_finding(hid_t parent, const std::string& group_name, const Finding& f
   }
   h5::write_text(group, "labels", labels);
   if (const auto& fit = finding.surface) write_surface(group, *fit);
+  h5::write_number(group, "checksum", content_checksum(group));
 }
 
 Finding read_stated(hid_t group) {

@@ -9,15 +9,13 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "studies/cases/checksum.hpp"
-#include "studies/storing/case_h5.hpp"
 #include "studies/storing/files.hpp"
-#include "studies/storing/finding_h5.hpp"
+#include "studies/storing/journal_record.hpp"
 #include "studies/storing/keys.hpp"
+#include "studies/storing/store_error.hpp"
 
 namespace acstudy {
 
@@ -25,78 +23,55 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How a record begins. Its size and its checksum follow, then the image of an HDF5 file.
+/// How a record begins. Its size and its checksum follow, then its bytes.
 constexpr std::string_view mark =
     "\n\x89"
-    "acstudy-rec-1\n";
+    "acstudy-rec-2\n";
 struct Head {
   std::uint64_t size, checksum;
 };
 constexpr std::size_t head_size = mark.size() + sizeof(Head);
 
-void read_record(std::span<const char> image, StoredCases& stored) {
-  const h5::Handle root = h5::open_image(image);
-  stored.study_file = h5::read_text(root, "study_file");
-  stored.study_text = h5::read_text(root, "study_text");
-  const h5::Handle cases = h5::open_group(root, "cases");
-  for (const std::string& name : h5::group_names(cases)) {
-    const h5::Handle one = h5::open_group(cases, name);
-    stored.cases.insert_or_assign(h5::read_text(one, "key"), read_case(one));
-  }
-  const std::string key = h5::read_text(root, "findings_key");
-  if (!of_these_measurements(key)) return;
-  if (key != stored.findings_key) stored.findings.clear();
-  stored.findings_key = key;
-  const h5::Handle findings = h5::open_group(root, "findings");
-  for (const std::string& name : h5::group_names(findings)) {
-    stored.findings.insert_or_assign(std::stoul(name), read_finding(h5::open_group(findings, name)));
-  }
+std::span<const char> as_chars(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Writes all bytes. Returns errno, 0 if it went well.
-int write_all(int file, std::span<const char> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = write(file, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-  }
-  return 0;
+void append(std::vector<char>& to, std::span<const std::uint8_t> bytes) {
+  const Head head{bytes.size(), checksum(as_chars(bytes))};
+  const auto* const head_begin = reinterpret_cast<const char*>(&head);
+  to.insert(to.end(), mark.begin(), mark.end());
+  to.insert(to.end(), head_begin, head_begin + sizeof head);
+  to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
 }  // namespace
 
-fs::path journal_path(const fs::path& out, const std::string& study) { return out / (study + ".journal"); }
+fs::path journal_path(const fs::path& out, const std::string& study, const std::string& shard) {
+  return out / fmt::format("{}{}.journal", study, shard);
+}
 
-std::vector<char> journal_record(const StudyResult& result, const Finished& finished) {
-  const Study& study = *result.study;
-  const h5::Handle root = h5::create_file_in_memory(study.name + ".journal");
-  h5::write_text(root, "study_file", absolute_path(study.file));
-  h5::write_text(root, "study_text", study.text);
-  h5::write_text(root, "findings_key", findings_key(study));
-  const h5::Handle cases = h5::create_group(root, "cases"), findings = h5::create_group(root, "findings");
-  for (std::size_t i = 0; i < finished.cases.size(); ++i) {
-    const auto& [c, r] = finished.cases[i];
-    write_case(cases, std::to_string(i), storage_key(*c), *r);
-  }
-  for (const std::size_t i : finished.findings) write_finding(findings, fmt::format("{:04}", i), *result.findings[i]);
-  const std::vector<char> image = h5::image(root);
-
-  const Head head{image.size(), checksum(image)};
-  std::vector<char> record(head_size + image.size());
-  std::copy(mark.begin(), mark.end(), record.begin());
-  std::memcpy(record.data() + mark.size(), &head, sizeof head);
-  std::copy(image.begin(), image.end(), record.begin() + head_size);
+std::vector<char> journal_head(const Study& study) {
+  std::vector<char> record;
+  append(record, study_record(study));
   return record;
 }
 
-void append_to_journal(const fs::path& file, std::span<const char> record) {
+std::vector<char> journal_records(const StudyResult& result, const Finished& finished) {
+  std::vector<char> records;
+  for (const auto& [c, r] : finished.cases) append(records, case_record(storage_key(*c), *r));
+  if (finished.findings.empty()) return records;
+  const std::string key = findings_key(*result.study);
+  for (const std::size_t i : finished.findings) append(records, finding_record(key, i, *result.findings[i]));
+  return records;
+}
+
+void append_to_journal(const fs::path& file, std::span<const char> records) {
   const int journal = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   int error = journal < 0 ? errno : 0;
   if (error == 0) {
     struct stat before {};
     fstat(journal, &before);
-    error = write_all(journal, record);
+    error = write_all(journal, records);
     if (error == 0 && fsync(journal) != 0) error = errno;
     if (error != 0 && ftruncate(journal, before.st_size) == 0 && before.st_size == 0) unlink(file.c_str());
     close(journal);
@@ -105,29 +80,88 @@ void append_to_journal(const fs::path& file, std::span<const char> record) {
   cannot_be_written(file, error);
 }
 
-void read_journal(const fs::path& file, StoredCases& stored) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return;
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<char> content{std::istreambuf_iterator<char>(in), {}};
-  if (!in) throw StoreError(fmt::format("{}: cannot be read; see who may read it", file.string()));
-  const std::span<const char> all(content);
+namespace {
+
+/// Calls visit(bytes) for each record that is as it was written, until it returns false. Returns how many are not; one
+/// that is cut off at the end, as by a kill, is none.
+template <class Visit>
+std::size_t for_each_record(std::span<const char> all, Visit&& visit) {
+  std::size_t damaged = 0;
   for (auto at = all.begin(); (at = std::search(at, all.end(), mark.begin(), mark.end())) != all.end(); ++at) {
     const auto rest = all.subspan(static_cast<std::size_t>(at - all.begin()));
-    if (rest.size() < head_size) return;
+    if (rest.size() < head_size) break;
     Head head;
     std::memcpy(&head, rest.data() + mark.size(), sizeof head);
     if (head.size > rest.size() - head_size) continue;
-    const auto image = rest.subspan(head_size, static_cast<std::size_t>(head.size));
-    if (checksum(image) != head.checksum) continue;
-    try {
-      read_record(image, stored);
-    } catch (const std::exception& error) {
-      throw StoreError(
-          fmt::format("{}: not a readable journal ({}); remove it, or use --fresh", file.string(), error.what()));
+    const auto bytes = rest.subspan(head_size, static_cast<std::size_t>(head.size));
+    if (checksum(bytes) != head.checksum) {
+      ++damaged;
+      continue;
     }
+    if (!visit(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()))) break;
     at += static_cast<std::ptrdiff_t>(head_size + head.size) - 1;
   }
+  return damaged;
+}
+
+[[noreturn]] void is_not_readable(const fs::path& file, const std::exception& error) {
+  throw StoreError(
+      fmt::format("{}: not a readable journal ({}); remove it, or use --fresh", file.string(), error.what()));
+}
+
+}  // namespace
+
+std::vector<char> framed(std::span<const std::uint8_t> record) {
+  std::vector<char> bytes;
+  append(bytes, record);
+  return bytes;
+}
+
+std::size_t read_records(std::span<const char> records, StoredCases& stored) {
+  return for_each_record(records, [&](std::span<const std::uint8_t> record) {
+    add_record(record, stored);
+    return true;
+  });
+}
+
+void read_journal(const fs::path& file, StoredCases& stored) {
+  const std::vector<char> content = bytes_of(file);
+  try {
+    const std::size_t damaged = read_records(content, stored);
+    if (damaged > 0) stored.damaged.push_back(fmt::format("{}: {} of its records", file.string(), damaged));
+  } catch (const std::exception& error) {
+    is_not_readable(file, error);
+  }
+}
+
+StoredCases journal_origin(const fs::path& file) {
+  const std::vector<char> content = bytes_of(file);
+  StoredCases origin;
+  try {
+    for_each_record(content, [&](std::span<const std::uint8_t> record) {
+      add_record(record, origin);
+      return origin.study_text.empty();
+    });
+  } catch (const std::exception& error) {
+    is_not_readable(file, error);
+  }
+  return origin;
+}
+
+std::vector<fs::path> journals_of(const fs::path& folder, const std::string& study) {
+  std::vector<fs::path> journals;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (study_of_journal(name) == study) journals.push_back(it->path());
+  }
+  std::sort(journals.begin(), journals.end());
+  return journals;
+}
+
+std::string study_of_journal(const std::string& name) {
+  if (!name.ends_with(".journal")) return "";
+  return name.substr(0, name.find('.'));
 }
 
 }  // namespace acstudy

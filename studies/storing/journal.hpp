@@ -5,6 +5,7 @@
 /// so that a process that is killed has lost nothing but what came after its last record.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <utility>
@@ -23,18 +24,33 @@ struct Finished {
 };
 
 /// `<out>/<study>.journal`
-std::filesystem::path journal_path(const std::filesystem::path& out, const std::string& study);
+/// @param shard  "" or, of a run that does a share, `Shard::suffix()`
+std::filesystem::path journal_path(const std::filesystem::path& out, const std::string& study,
+                                   const std::string& shard);
+/// The journals of a study in a folder: that of a run, and those of shards.
+std::vector<std::filesystem::path> journals_of(const std::filesystem::path& folder, const std::string& study);
+/// Of which study a file of this name is a journal; empty if of none.
+std::string study_of_journal(const std::string& name);
 
-/// A record as bytes. Calls HDF5, which is not to be called from two threads at a time.
-std::vector<char> journal_record(const StudyResult& result, const Finished& finished);
+/// Whose results follow, as bytes: how a journal begins.
+std::vector<char> journal_head(const Study& study);
+/// What is finished, as bytes. Calls HDF5, which is not to be called from two threads at a time.
+std::vector<char> journal_records(const StudyResult& result, const Finished& finished);
 
-/// Appends a record and waits until it is on the disk; a record that does not fit is taken back.
+/// A record as it stands in a journal.
+std::vector<char> framed(std::span<const std::uint8_t> record);
+/// Adds the content of records as they stand in a journal.
+/// @return how many are not as they were written  @throws std::exception if one is no record
+std::size_t read_records(std::span<const char> records, StoredCases& stored);
+
+/// Appends records and waits until they are on the disk; what does not fit is taken back.
 /// @throws StoreError
-void append_to_journal(const std::filesystem::path& file, std::span<const char> record);
+void append_to_journal(const std::filesystem::path& file, std::span<const char> records);
 
-/// Adds the content of a journal, if there is one; of equal keys the latest record counts. Records that are not whole
-/// are passed over.
-/// @throws StoreError if the file is there and cannot be read
+/// Adds the content of a journal; of equal keys the latest record counts. Records that are not whole are passed over.
+/// @throws StoreError if it cannot be read
 void read_journal(const std::filesystem::path& file, StoredCases& stored);
+/// `study_file` and `study_text` of a journal, from its first records.
+StoredCases journal_origin(const std::filesystem::path& file);
 
 }  // namespace acstudy

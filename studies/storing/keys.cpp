@@ -17,7 +17,8 @@ std::string findings_key(const Study& study) {
     for (const Case& c : series.cases) runs = checksum(storage_key(c), runs);
   }
   for (const Measurement& measurement : study.measurements) runs = checksum(measurement.check.label(), runs);
-  return fmt::format("runs={:016x}|{}|measurements={}", runs, study.text, measurements_fingerprint());
+  return fmt::format("runs={:016x}|text={:016x}|measurements={}", runs, checksum(study.text),
+                     measurements_fingerprint());
 }
 
 bool of_these_measurements(const std::string& findings_key) {

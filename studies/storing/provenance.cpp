@@ -27,6 +27,13 @@ std::string processor() {
   return "unknown processor";
 }
 
+/// An attribute of a file holds no more than 64 KB.
+std::string shortened(const std::string& command) {
+  constexpr std::size_t most = 4000;
+  if (command.size() <= most) return command;
+  return fmt::format("{}... ({} letters)", command.substr(0, most), command.size());
+}
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   char text[32];
@@ -63,7 +70,7 @@ Provenance collect_provenance(int jobs, const std::string& command) {
       {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
       {"created", utc_now()},
       {"jobs", std::to_string(jobs)},
-      {"command", command},
+      {"command", shortened(command)},
   };
 }
 

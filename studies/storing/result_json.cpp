@@ -4,6 +4,7 @@
 
 #include "studies/storing/estimates.hpp"
 #include "studies/storing/json_form.hpp"
+#include "studies/storing/seal.hpp"
 
 namespace acstudy {
 
@@ -121,7 +122,7 @@ std::string json_text(const StudyResult& result, const Provenance& provenance) {
     if (finding) root["findings"].push_back(finding_json(*finding));
   }
   if (root.contains("findings")) root["findings_planned"] = study.measurements.size();
-  return pretty(root) + "\n";
+  return sealed(pretty(root)) + "\n";
 }
 
 }  // namespace acstudy

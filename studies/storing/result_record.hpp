@@ -36,6 +36,7 @@ struct ResultRecord {
   Provenance provenance;
   std::vector<FindingRecord> findings;
   std::size_t findings_planned = 0;
+  bool damaged = false;  ///< the file is not as it was written
 };
 
 /// A JSON result file as it stands: the judgement of a finding is the stated one, as far as its verdict, order with

@@ -14,6 +14,7 @@
 #include "studies/reading/input_error.hpp"
 #include "studies/storing/json_form.hpp"
 #include "studies/storing/result_record.hpp"
+#include "studies/storing/seal.hpp"
 
 namespace acstudy {
 
@@ -188,7 +189,8 @@ ResultRecord stated_json(const std::string& file) {
   if (!in || !(text << in.rdbuf())) throw InputError(fmt::format("{}: cannot read the result file; {}", file, remedy));
   ResultRecord all;
   try {
-    const json root = json::parse(text.str());
+    json root = json::parse(text.str());
+    all.damaged = take_seal(root) == Seal::broken;
     const std::string& study = all.study = root.at("study").get<std::string>();
     const json provenance = root.value("provenance", json::object());
     for (const auto& [name, value] : provenance.items()) {

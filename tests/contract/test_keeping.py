@@ -12,9 +12,9 @@ import unittest
 
 import h5py
 
-from tests.program import ACSTUDY, LEVELS, MODEL_II, ROOT, STUDY, ProgramTest, edit, numbers
+from tests.program import ACSTUDY, LEVELS, MODEL_II, ROOT, STUDY, ProgramTest, edit, numbers, reseal
 
-MARK = b"\n\x89acstudy-rec-1\n"
+MARK = b"\n\x89acstudy-rec-2\n"
 # Cases of some hundredths of a second, minutes of them; most are never run here.
 MANY = list(range(1000, 1400))
 LONG = edit(STUDY, ("4*h", "0.5"), (LEVELS, str(MANY)), ('source = "local"', 'source = "nonlocal"'))
@@ -29,8 +29,8 @@ sources = ["local", "nonlocal"]
 """
 
 
-def images(journal):
-    """The HDF5 images of the whole records of a journal."""
+def records(journal):
+    """The bytes of the whole records of a journal."""
     content, at = journal.read_bytes() if journal.exists() else b"", 0
     while (at := content.find(MARK, at)) >= 0:
         head = content[at + len(MARK):at + len(MARK) + 16]
@@ -43,12 +43,27 @@ def images(journal):
         at += size
 
 
+KEY = {"cases": b"\x64case", "findings": b"\x67finding"}  # texts of CBOR
+
+
+def of_kind(journal, what):
+    return [record for record in records(journal) if KEY[what] in record]
+
+
+def level(record):
+    return int(re.search(rb"\|N=(\d+)\|", record)[1])
+
+
+def image(record):
+    """The HDF5 image of a finding, in a name of CBOR and four bytes of length."""
+    start = record.index(b"\x65image") + 6
+    width = {0x58: 1, 0x59: 2, 0x5a: 4}[record[start]]
+    size = int.from_bytes(record[start + 1:start + 1 + width], "big")
+    return record[start + 1 + width:start + 1 + width + size]
+
+
 def count(journal, what):
-    total = 0
-    for image in images(journal):
-        with h5py.File(io.BytesIO(image), "r") as file:
-            total += len(file[what])
-    return total
+    return len(of_kind(journal, what))
 
 
 class Keeping(ProgramTest):
@@ -94,7 +109,8 @@ class Cases(Keeping):
             stored = finished
         else:
             self.assertEqual(process.returncode, -signal.SIGKILL)
-            self.assertEqual(os.listdir(self.folder / "out"), ["tiny.journal"])
+            # The lock says who held it; nobody does.
+            self.assertEqual(sorted(os.listdir(self.folder / "out")), ["tiny.journal", "tiny.lock"])
             stored = max(stored, count(self.journal, "cases"))
         return stored
 
@@ -111,11 +127,7 @@ class Cases(Keeping):
     def kept_levels(self):
         """The levels of the cases that are in the journal or, after an interruption, in the results."""
         if self.journal.exists():
-            levels = []
-            for image in images(self.journal):
-                with h5py.File(io.BytesIO(image), "r") as file:
-                    levels += [len(case["x"]) for case in file["cases"].values()]
-            return sorted(levels)
+            return sorted(map(level, of_kind(self.journal, "cases")))
         return [case["N"] for case in self.result()["series"][0]["cases"]]
 
     def test_cases_of_many_ensembles(self):
@@ -142,22 +154,23 @@ class Cases(Keeping):
         self.end(process, signal.SIGKILL)
         whole = self.journal.read_bytes()
         levels = self.kept_levels()
-        first = next(images(self.journal))
-        with h5py.File(io.BytesIO(first), "r") as file:
-            of_first = len(file["cases"])
         text = edit(LONG, (str(MANY), str(levels)))
-        record = MARK + whole[len(MARK):len(MARK) + 16] + first
-        self.assertTrue(whole.startswith(record))
+        of_study, first = list(records(self.journal))[:2]
+        begin = len(MARK) + 16 + len(of_study)
+        record = whole[begin:begin + len(MARK) + 16 + len(first)]
+        self.assertTrue(record.startswith(MARK) and record.endswith(first))
         broken = bytearray(record)
         broken[len(record) // 2] ^= 1
         for what, content, left in (("torn at its end", whole + record[:-7], len(levels)),
                                     ("torn, then written on", record[:len(record) // 2] + whole, len(levels)),
-                                    ("one bit", bytes(broken), 0), ("its head", record + whole[:20], of_first)):
+                                    ("one bit", bytes(broken) + whole[:begin], 0), ("its head", record + whole[:20], 1)):
             with self.subTest(what):
                 for name in ("tiny.h5", "tiny.json"):
                     (self.folder / "out" / name).unlink(missing_ok=True)
                 self.journal.write_bytes(content)
-                self.assert_counts(self.run_study(text), len(levels) - left, left)
+                done = self.run_study(text)
+                self.assert_counts(done, len(levels) - left, left)
+                self.assertEqual("not as it was written" in done.stderr, what in ("torn, then written on", "one bit"))
                 self.assertFalse(self.journal.exists())
 
 
@@ -174,6 +187,7 @@ class Findings(Keeping):
         path = self.folder / "out" / "tiny.h5"
         with h5py.File(path, "a") as file:
             file["findings/0000"].attrs["remark"] = "taken again"
+        reseal(path)
         self.assert_counts(self.run_study(MAP), 0, 32)
         changed = self.stored()
         self.assertEqual([key for key in first if first[key] != changed[key]], ["findings/0000@remark"])
@@ -183,6 +197,7 @@ class Findings(Keeping):
                 self.run_study(MAP)
                 with h5py.File(path, "a") as file:
                     file["findings/0000"].attrs["remark"] = "taken again"
+                reseal(path)
                 self.run_study(text, *arguments)
                 self.assertEqual(self.stored()["findings/0000@remark"], first["findings/0000@remark"])
 
@@ -193,9 +208,11 @@ class Findings(Keeping):
         self.await_journal(process, "findings", 3)
         self.end(process, signal.SIGKILL)
         values = {}
-        for image in images(self.journal):
-            with h5py.File(io.BytesIO(image), "r") as file:
-                values |= {name: finding["value"][()].tobytes() for name, finding in file["findings"].items()}
+        for record in of_kind(self.journal, "findings"):
+            with h5py.File(io.BytesIO(image(record)), "r") as file:
+                number = re.search(rb"\x67finding(\x18.|\x19..|.)", record, re.DOTALL)[1]
+                name = f"{int.from_bytes(number[1:] or number, 'big'):04d}"
+                values[name] = file["finding"]["value"][()].tobytes()
         self.assertGreaterEqual(len(values), 3)
         process = self.start()
         time.sleep(0.3)
@@ -244,6 +261,7 @@ class OtherStudies(ProgramTest):
     def test_a_file_of_an_older_version_belongs_to_no_study(self):
         with h5py.File(self.folder / "out" / "tiny.h5", "a") as file:
             del file.attrs["study_file"]
+        reseal(self.folder / "out" / "tiny.h5")
         self.write("copy.toml", edit(STUDY, (LEVELS, "[16, 32]")))
         self.assert_counts(self.acstudy("run", "copy.toml", "--out", "out"), 0, 2)
 

@@ -16,6 +16,8 @@
 #include "studies/kinds/study_file.hpp"
 #include "studies/running/run_case.hpp"
 #include "studies/storing/bench_store.hpp"
+#include "studies/storing/files.hpp"
+#include "studies/storing/study_lock.hpp"
 
 namespace acstudy {
 
@@ -52,6 +54,12 @@ void show_progress(std::int64_t round, std::size_t open, std::size_t cases) {
 /// @throws InputError, StoreError
 BenchResult bench_studies(const std::vector<Study>& studies, const BenchRequest& request,
                           const std::atomic<bool>& stop) {
+  const StudyLock lock(request.out, "bench");
+  if (!lock.without().empty()) {
+    say(fmt::format("note: {}: this file system has no locks ({}); see that no other bench writes there",
+                    request.out.string(), lock.without()));
+  }
+  remove_partial(request.out, {"bench.h5", "bench.json"});
   Bench bench = plan_bench(studies, request.options.threads);
   std::map<const Case*, Plan> plans;
   for (BenchCase& one : bench.cases) one.form = plans.try_emplace(one.c, plan(*one.c)).first->second.form->name;

@@ -9,6 +9,7 @@
 #include <map>
 #include <system_error>
 
+#include "studies/commands/say.hpp"
 #include "studies/reading/input_error.hpp"
 #include "studies/storing/store_error.hpp"
 
@@ -72,6 +73,7 @@ ResultSet read_results(const std::string& path) {
   std::map<std::string, fs::path> seen;
   for (const fs::path& file : fs::is_directory(path, ignored) ? files_of(path) : std::vector<fs::path>{path}) {
     set.studies.push_back(read_file(file));
+    if (set.studies.back().damaged) say_damaged(file.string());
     require_verdicts(file, set.studies.back());
     const auto [first, is_new] = seen.emplace(set.studies.back().study, file);
     if (!is_new) {

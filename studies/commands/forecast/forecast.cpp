@@ -1,6 +1,7 @@
 #include "studies/commands/forecast/forecast.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,6 +80,10 @@ StudyForecast forecast(const Study& study, Speeds& speeds) {
 double available_memory() {
   double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   // A container may have less than its machine; without a limit the file says "max", which is no number.
+  rlimit own{};
+  if (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY) {
+    bytes = std::min(bytes, static_cast<double>(own.rlim_cur));
+  }
   double limit = 0.0;
   if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit && limit > 0.0) bytes = std::min(bytes, limit);
   return bytes;

@@ -17,6 +17,7 @@ struct EarlierResults {
   std::vector<StoredCases> each;
 };
 
+/// What is damaged of them is said.
 /// @throws InputError if results would be lost that belong to another study file
 /// @throws StoreError
 EarlierResults earlier_results(const std::vector<Study>& studies, const RunOptions& options);

@@ -1,9 +1,12 @@
 #include "studies/commands/run/runner.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -15,10 +18,15 @@
 #include "studies/commands/run/journals.hpp"
 #include "studies/commands/run/parallel.hpp"
 #include "studies/commands/run/progress.hpp"
+#include "studies/commands/say.hpp"
+#include "studies/commands/stop.hpp"
+#include "studies/reading/input_error.hpp"
 #include "studies/running/reference.hpp"
 #include "studies/running/run_case.hpp"
 #include "studies/running/stopwatch.hpp"
+#include "studies/storing/files.hpp"
 #include "studies/storing/keys.hpp"
+#include "studies/storing/study_lock.hpp"
 
 namespace acstudy {
 
@@ -45,7 +53,7 @@ struct Open {
 class Runner {
  public:
   Runner(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop)
-      : studies_(studies), options_(options), stop_(stop) {
+      : studies_(studies), options_(options), stop_(stop), shares_(studies, options.shard.count) {
     earlier_ = earlier_results(studies, options);
     for (std::size_t s = 0; s < studies.size(); ++s) take_up(s);
     // What is kept is for levels that are added later.
@@ -53,26 +61,33 @@ class Runner {
       return std::any_of(study.series.begin(), study.series.end(), [](const Series& s) { return s.until_decided; });
     };
     if (std::none_of(studies.begin(), studies.end(), adds_levels)) earlier_ = {};
-    journals_.emplace(options.out, run_.studies, mutex_);
+    if (options.merge) require_nothing_open();
+    journals_.emplace(options.out, options.shard.suffix(), run_.studies, mutex_);
     plans_ = plan(open_.cases);
   }
 
   RunResult run() {
     for (std::size_t s = 0; s < studies_.size(); ++s) finish_if_complete(s);
     start_progress();
-    std::exception_ptr failure;
     {
       const EverySecond every_second([&] {
         progress_->show();
         journals_->save();
       });
-      failure = run_batches();
-      if (!failure && !stop_) failure = take_measurements();
+      run_.left_running = !done_before_stop(stop_, [&] {
+        std::exception_ptr failure = run_batches();
+        if (!failure && !stop_) failure = take_measurements();
+        failure_ = failure;
+      });
     }
+    const std::exception_ptr unsaved = options_.shard.whole() ? nullptr : journals_->save();
+    // What is left running waits for this lock at its end, and that of the program.
+    auto* const lock = new std::unique_lock(mutex_);
+    std::exception_ptr failure = run_.left_running || failure_ == nullptr ? unsaved : failure_;
     progress_.reset();
     // What is done is stored before anything is said of what went wrong.
     run_.interrupted = stop_;
-    for (std::size_t s = 0; s < studies_.size(); ++s) {
+    for (std::size_t s = 0; s < studies_.size() && options_.shard.whole(); ++s) {
       if (journals_->finished(s)) continue;
       try {
         finish(s);
@@ -80,6 +95,7 @@ class Runner {
         if (!failure) failure = std::current_exception();
       }
     }
+    if (!run_.left_running) delete lock;
     if (failure) std::rethrow_exception(failure);
     return std::move(run_);
   }
@@ -110,13 +126,33 @@ class Runner {
         // The store has their values, but not what a reader sees of them.
         result.findings[i]->coordinates = study.measurements[i].check.coordinates;
       } else {
-        open_.measurements.push_back({s, i});
         measured = false;
+        const int share = shares_.of(s, i);
+        if (options_.shard.whole() || share == options_.shard.number) open_.measurements.push_back({s, i});
       }
     }
     // A study of which nothing is computed keeps the origin of its numbers.
     const bool untouched = open_.cases_of[s] == 0 && measured && !stored.provenance.empty();
     provenance_.push_back(untouched ? stored.provenance : collect_provenance(options_.jobs, options_.command));
+    stands_.push_back(untouched && results_stand(options_.out, stored, study));
+  }
+
+  /// What is to be merged is all there.
+  void require_nothing_open() const {
+    for (std::size_t s = 0; s < studies_.size(); ++s) {
+      const auto findings = std::count_if(open_.measurements.begin(), open_.measurements.end(), [&](const auto& one) {
+        return one.first == s && shares_.of(one.first, one.second) != 0;
+      });
+      if (open_.cases_of[s] == 0 && findings == 0) continue;
+      const std::string first =
+          open_.cases.empty() ? "" : fmt::format(", the first with N = {}", open_.cases.front()->N);
+      throw InputError(fmt::format(
+          "{}: {} cases and {} findings of study \"{}\" are stored in none of the folders{}; a share was not run to "
+          "its "
+          "end, or by another build or another kind of processor: run it, or let acstudy run {} --out {} do the rest",
+          studies_[s].file, open_.cases_of[s], findings, studies_[s].name, first, studies_[s].file,
+          options_.out.string()));
+    }
   }
 
   /// The next level of a series; true if it is a case that nobody has asked for.
@@ -131,13 +167,14 @@ class Runner {
       result_at(place) = found->second;
       // What kept a program from its work may be gone, and a limit be another, or a machine less busy.
       const std::string& failure = found->second.failure;
-      const bool again =
-          options_.fresh || failure.starts_with(over_limit) || (c.scheme.program != nullptr && !failure.empty());
+      const bool again = options_.fresh || failure.starts_with(over_limit) || failure.starts_with(over_memory) ||
+                         (c.scheme.program != nullptr && !failure.empty());
       if (!again) {
         ++run_.reused;
         return false;
       }
     }
+    if (shares_.of(c) != options_.shard.number && !options_.shard.whole()) return false;
     const auto [entry, is_new] = open_.index_of.try_emplace(key, open_.cases.size());
     if (is_new) {
       open_.cases.push_back(&c);
@@ -162,6 +199,7 @@ class Runner {
     const Series& series = studies_[s].series[number];
     const std::vector<CaseResult>& results = run_.studies[s].series[number].results;
     if (!series.until_decided) return false;
+    if (!options_.shard.whole() && shares_.of(series.cases.front()) != options_.shard.number) return false;
     const auto& verdict =
         *std::find_if(studies_[s].measurements.begin(), studies_[s].measurements.end(),
                       [&](const Measurement& measurement) { return measurement.check.series == number; });
@@ -219,12 +257,13 @@ class Runner {
       const Measurement& measurement = studies_[s].measurements[i];
       if (measurement.check.series) run_.studies[s].findings[i] = measurement.take(run_.studies[s].series);
     }
-    write_results(options_.out, run_.studies[s], provenance_[s]);
+    if (!stands_[s]) write_results(options_.out, run_.studies[s], provenance_[s]);
     journals_->finish(s);
     if (progress_) progress_->study_done(s, run_.seconds[s]);
   }
 
   void finish_if_complete(std::size_t s) {
+    if (!options_.shard.whole()) return;  // the rest is others'
     const auto& findings = run_.studies[s].findings;
     const auto& planned = studies_[s].measurements;
     const bool complete = std::equal(planned.begin(), planned.end(), findings.begin(),
@@ -334,6 +373,7 @@ class Runner {
       timed(seconds, [&] { finding = studies_[s].measurements[m].take(run_.studies[s].series); });
       lock.lock();
       run_.studies[s].findings[m] = std::move(finding);
+      ++run_.findings;
       run_.seconds[s] += seconds;
       journals_->unsaved(s).findings.push_back(m);
       progress_->finding_done(s);
@@ -345,12 +385,15 @@ class Runner {
   const std::vector<Study>& studies_;
   const RunOptions& options_;
   const std::atomic<bool>& stop_;
+  Shares shares_;
   RunResult run_;
   Open open_;
+  std::exception_ptr failure_;  ///< of what is computed
   EarlierResults earlier_;
   std::vector<Plan> plans_;  ///< of the open cases
   std::vector<Provenance> provenance_;
-  std::mutex mutex_;  ///< for results, journals and batches, and for HDF5
+  std::vector<bool> stands_;  ///< what is stored of a study is what would be
+  std::mutex mutex_;          ///< for results, journals and batches, and for HDF5
   std::optional<Journals> journals_;
   std::optional<Progress> progress_;
   std::deque<Batch> batches_;  ///< heaviest first
@@ -360,8 +403,40 @@ class Runner {
 
 }  // namespace
 
+namespace {
+
+/// Keeps others from writing the results of these studies.
+std::vector<StudyLock> locks_of(const std::vector<Study>& studies, const RunOptions& options) {
+  std::vector<StudyLock> locks;
+  std::set<std::string> files;
+  bool said = false;
+  for (const Study& study : studies) {
+    const std::string& name = study.name;
+    locks.emplace_back(options.out, name + options.shard.suffix());
+    if (const std::string& why = locks.back().without(); !why.empty() && !std::exchange(said, true)) {
+      say(fmt::format("note: {}: this file system has no locks ({}); see that no other run writes there",
+                      options.out.string(), why));
+    }
+    if (!options.shard.whole()) {
+      require_unlocked(options.out, name);
+      continue;
+    }
+    for (const char* const extension : {".h5", ".json"}) files.insert(name + extension);
+    for (const auto& folder : options.stores) require_no_writer(folder, name);
+    require_no_writer(options.out, name, &locks.back());
+  }
+  if (options.shard.whole()) remove_partial(options.out, files);
+  return locks;
+}
+
+}  // namespace
+
 RunResult run_studies(const std::vector<Study>& studies, const RunOptions& options, const std::atomic<bool>& stop) {
-  return Runner(studies, options, stop).run();
+  const std::vector<StudyLock> locks = locks_of(studies, options);
+  auto runner = std::make_unique<Runner>(studies, options, stop);
+  RunResult result = runner->run();
+  if (result.left_running) static_cast<void>(runner.release());  // its threads use it to the end of the program
+  return result;
 }
 
 }  // namespace acstudy

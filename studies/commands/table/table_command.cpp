@@ -4,6 +4,7 @@
 
 #include "studies/commands/command.hpp"
 #include "studies/commands/exit.hpp"
+#include "studies/commands/say.hpp"
 #include "studies/commands/table/error_table.hpp"
 
 namespace acstudy {
@@ -16,7 +17,9 @@ struct TableRequest {
 
 int print_table(const TableRequest& request) {
   const Norm norm = request.norm == "max" ? Norm::max : request.norm == "l1" ? Norm::l1 : Norm::l2;
-  const std::vector<ErrorTable> tables = error_tables(stated_json(request.file), norm, request.file);
+  const ResultRecord record = stated_json(request.file);
+  if (record.damaged) say_damaged(request.file);
+  const std::vector<ErrorTable> tables = error_tables(record, norm, request.file);
   fmt::print("{}", request.format == "latex" ? as_latex(tables)
                    : request.format == "csv" ? as_csv(tables)
                                              : as_markdown(tables));

@@ -10,8 +10,7 @@ namespace acstudy {
 
 namespace {
 
-using json = nlohmann::json;
-using Bytes = json::binary_t::container_type;
+using Bytes = nlohmann::json::binary_t::container_type;
 
 template <class T>
 Bytes as_bytes(std::span<const T> values) {
@@ -21,20 +20,20 @@ Bytes as_bytes(std::span<const T> values) {
 
 /// Numbers are kept as bytes: CBOR has one NaN alone.
 template <class T>
-json packed(const T& value) {
+nlohmann::json packed(const T& value) {
   if constexpr (std::is_arithmetic_v<T>) {
-    return json::binary(as_bytes(std::span(&value, 1)));
+    return nlohmann::json::binary(as_bytes(std::span(&value, 1)));
   } else if constexpr (std::is_same_v<T, std::string>) {
-    return json::binary(as_bytes(std::span<const char>(value)));  // as a program has written it
+    return nlohmann::json::binary(as_bytes(std::span<const char>(value)));  // as a program has written it
   } else if constexpr (std::is_same_v<T, PointArray>) {
     return {value.dimension, packed(value.coordinates)};
   } else {
-    return json::binary(as_bytes(std::span<const typename T::value_type>(value)));
+    return nlohmann::json::binary(as_bytes(std::span<const typename T::value_type>(value)));
   }
 }
 
 template <class T>
-void unpack(const json& from, T& value) {
+void unpack(const nlohmann::json& from, T& value) {
   if constexpr (std::is_same_v<T, PointArray>) {
     value.dimension = std::clamp<std::size_t>(from.at(0).get<std::size_t>(), 1, most_dimensions);
     unpack(from.at(1), value.coordinates);
@@ -53,31 +52,32 @@ void unpack(const json& from, T& value) {
 }  // namespace
 
 RecordBytes study_record(const Study& study) {
-  return json::to_cbor({{"study_file", packed(absolute_path(study.file))}, {"study_text", packed(study.text)}});
+  return nlohmann::json::to_cbor(
+      {{"study_file", packed(absolute_path(study.file))}, {"study_text", packed(study.text)}});
 }
 
 RecordBytes case_record(const std::string& key, const CaseResult& result) {
-  json record = {{"case", packed(key)}};
+  nlohmann::json record = {{"case", packed(key)}};
   CaseResult::stored(result, [&](const Stored& as, const auto& value) { record[as.column()] = packed(value); });
-  return json::to_cbor(record);
+  return nlohmann::json::to_cbor(record);
 }
 
 RecordBytes finding_record(const std::string& findings_key, std::size_t number, const Finding& finding) {
   const h5::Handle root = h5::create_file_in_memory();
   write_finding(root, "finding", finding);
-  return json::to_cbor({{"finding", number}, {"key", findings_key}, {"image", packed(h5::image(root))}});
+  return nlohmann::json::to_cbor({{"finding", number}, {"key", findings_key}, {"image", packed(h5::image(root))}});
 }
 
-RecordBytes damage_record(const std::string& what) { return json::to_cbor({{"damaged", packed(what)}}); }
+RecordBytes damage_record(const std::string& what) { return nlohmann::json::to_cbor({{"damaged", packed(what)}}); }
 
 RecordBytes origin_record(const StoredCases& stored) {
-  return json::to_cbor({{"study_file", packed(stored.study_file)},
-                        {"study_text", packed(stored.study_text)},
-                        {"provenance", stored.provenance}});
+  return nlohmann::json::to_cbor({{"study_file", packed(stored.study_file)},
+                                  {"study_text", packed(stored.study_text)},
+                                  {"provenance", stored.provenance}});
 }
 
 void add_record(std::span<const std::uint8_t> bytes, StoredCases& stored) {
-  const json record = json::from_cbor(bytes.begin(), bytes.end());
+  const nlohmann::json record = nlohmann::json::from_cbor(bytes.begin(), bytes.end());
   if (record.contains("case")) {
     std::string key;
     unpack(record.at("case"), key);

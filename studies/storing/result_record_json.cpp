@@ -68,7 +68,7 @@ CaseRecord case_record(const json& one) {
   return record;
 }
 
-FindingRecord read_finding(const std::string& study, const json& one) {
+FindingRecord finding_of(const std::string& study, const json& one) {
   FindingRecord record = record_of(study, one, {});
   Finding& finding = record.finding;
   finding.statement = one.at("statement").get<std::string>();
@@ -200,7 +200,7 @@ ResultRecord stated_json(const std::string& file) {
     const json& findings = root.contains("findings") ? root.at("findings") : none;
     const json& series = root.contains("findings") ? none : root.at("series");
     all.findings_planned = root.contains("findings") ? root.at("findings_planned").get<std::size_t>() : series.size();
-    for (const json& one : findings) all.findings.push_back(read_finding(study, one));
+    for (const json& one : findings) all.findings.push_back(finding_of(study, one));
     for (const json& one : series) all.findings.push_back(read_series(study, one, all.findings.size()));
     std::vector<Check*> checks;
     for (FindingRecord& record : all.findings) checks.push_back(&record.finding);

@@ -14,7 +14,7 @@ using json = nlohmann::ordered_json;
 
 /// The smallest that HDF5 passes over.
 constexpr std::size_t block = 512;
-constexpr std::string_view hdf5_begins = "\x89HDF\r\n\x1a\n", key = "checksum";
+constexpr std::string_view hdf5_begins = "\x89HDF\r\n\x1a\n", checksum_key = "checksum";
 
 std::string words(std::span<const char> hdf5) {
   return fmt::format("acstudy: {} of the {} bytes after these {}\n", crc(hdf5), hdf5.size(), block);
@@ -51,13 +51,13 @@ std::string sealed(std::string text) {
   // Of the text as it is read back: it has a real number of no fraction as a whole one.
   const std::string sum = crc_of_values(json::parse(text));
   text.erase(text.rfind("\n}"));
-  return text + fmt::format(",\n  \"{}\": \"{}\"\n}}", key, sum);
+  return text + fmt::format(",\n  \"{}\": \"{}\"\n}}", checksum_key, sum);
 }
 
 Seal take_seal(json& root) {
-  if (!root.is_object() || !root.contains(key)) return Seal::none;
-  const json stated = root[std::string(key)];
-  root.erase(std::string(key));
+  if (!root.is_object() || !root.contains(checksum_key)) return Seal::none;
+  const json stated = root[std::string(checksum_key)];
+  root.erase(std::string(checksum_key));
   return stated == crc_of_values(root) ? Seal::whole : Seal::broken;
 }
 

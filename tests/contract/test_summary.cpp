@@ -2,10 +2,10 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "studies/reading/nearest.hpp"
 #include "studies/commands/run/summary.hpp"
 #include "studies/commands/seconds.hpp"
 #include "studies/commands/terminal.hpp"
+#include "studies/reading/nearest.hpp"
 
 using namespace acstudy;
 

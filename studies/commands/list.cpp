@@ -42,8 +42,9 @@ std::string list_text(const std::string& what, bool draw) {
   if (what.empty() || what == "schemes") {
     heading("schemes");
     for (const ModelCard* model : model_cards()) {
-      if (model->own()) {
-        out += fmt::format("{}model = \"{}\"  order {:g} in {} ({})\n", indent, model->name, model->order,
+      if (model->beyond_paper) {
+        const std::string limiter = model->limiter.empty() ? "" : fmt::format(", limiter = \"{}\"", model->limiter);
+        out += fmt::format("{}model = \"{}\"{}  order {:g} in {} ({})\n", indent, model->name, limiter, model->order,
                            model->order_in_h ? "h" : "max(h,delta)", model->equations.local);
         continue;
       }

@@ -20,9 +20,7 @@ CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
   const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
   if (scheme->rows() == nullptr && (c.integrator->implicit() || c.step.bound == StepRule::Bound::rows)) {
     throw std::domain_error(
-        "a scheme that is not linear, and a control with sums of its own, know nothing of their rows: no implicit "
-        "step, "
-        "no bound");
+        "neither a limiter nor a control with sums of its own knows its rows: no implicit step, no bound");
   }
   const auto source =
       make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule, c.source_refinement);

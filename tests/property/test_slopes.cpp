@@ -243,11 +243,11 @@ TEST_CASE("with a limiter a step makes no new extreme, and without one it does",
   for (const unsigned seed : {1u, 2u, 3u, 4u}) {
     const auto x = irregular_positions(N, period, seed);
     const auto u = irregular_values(N, seed + 10);
-    const auto [low, high] = std::minmax_element(u.begin(), u.end());
+    const double low = *std::min_element(u.begin(), u.end()), high = *std::max_element(u.begin(), u.end());
     const auto excess = [&](const std::vector<double>& rate, double dt) {
       double most = 0.0;
       for (std::size_t j = 0; j < N; ++j) {
-        most = std::fmax(most, std::fmax(u[j] + dt * rate[j] - *high, *low - u[j] - dt * rate[j]));
+        most = std::fmax(most, std::fmax(u[j] + dt * rate[j] - high, low - u[j] - dt * rate[j]));
       }
       return most;
     };

@@ -12,7 +12,8 @@ namespace {
 
 /// Also where models are added before main begins, it is there.
 std::vector<const ModelCard*>& cards() {
-  static std::vector<const ModelCard*> all = {&model_one, &model_two, &slopes, &clipped_slopes, &symmetric};
+  static std::vector<const ModelCard*> all = {&model_one, &model_two, &model_slopes, &model_clipped_slopes,
+                                              &model_symmetric};
   return all;
 }
 
@@ -37,22 +38,6 @@ const ModelCard* find_named_model(std::string_view name, std::string_view limite
 
 const ModelCard* find_labeled_model(std::string_view label) {
   return find([&](const ModelCard* card) { return card->beyond_paper && card->label() == label; });
-}
-
-ModelCard card_beyond_paper() {
-  ModelCard card{};
-  card.beyond_paper = true;
-  card.pair_cost = 1.0;
-  card.row_terms = 1.0;
-  card.vector_form = VectorForm::none;
-  card.step_lemma = {.name = "its bound on steps",
-                     .row_by_row = "its bound on steps, row by row",
-                     .where_positive = "where c - b is constant",
-                     .m_matrix = "no entry of a step is negative at any step",
-                     .limit = "c - b",
-                     .enough_for_every_kernel = true};
-  card.to_nonlocal = card.to_pde = "consistency";
-  return card;
 }
 
 void add_model(ModelCard& card) {

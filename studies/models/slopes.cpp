@@ -19,7 +19,7 @@ std::unique_ptr<LineScheme> make(const SchemeChoice& choice, const Scene& scene,
   return with_divergence(choice, scene, scheme)(SomeKernel(choice.kernel.kernel()));
 }
 
-ModelCard card() {
+constexpr ModelCard card() {
   ModelCard card = card_beyond_paper();
   card.number = 3;
   card.name = "slopes";
@@ -39,7 +39,7 @@ ModelCard card() {
   return card;
 }
 
-ModelCard clipped() {
+constexpr ModelCard clipped() {
   ModelCard it = card();
   it.number = 4;
   it.limiter = "clip";
@@ -52,7 +52,7 @@ ModelCard clipped() {
 
 }  // namespace
 
-const ModelCard slopes = card();
-const ModelCard clipped_slopes = clipped();
+constinit const ModelCard model_slopes = card();
+constinit const ModelCard model_clipped_slopes = clipped();
 
 }  // namespace acstudy

@@ -45,8 +45,10 @@ class SomeKernel {
   AnyKernel kernel_;
 };
 
+/// @throws std::invalid_argument if it is not integrable
 inline SomeKernel integrable_one(const KernelChoice& choice) {
-  return with_integrable_kernel(choice, [](const auto& kernel) { return SomeKernel(AnyKernel(kernel)); });
+  if (!integrable(choice)) throw std::invalid_argument("kernel " + choice.label() + " is not integrable");
+  return SomeKernel(choice.kernel());
 }
 
 }  // namespace acstudy

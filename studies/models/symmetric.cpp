@@ -18,7 +18,7 @@ std::unique_ptr<LineScheme> make(const SchemeChoice& choice, const Scene& scene,
   return with_divergence(choice, scene, scheme)(integrable_one(choice.kernel));
 }
 
-ModelCard card() {
+constexpr ModelCard card() {
   ModelCard card = card_beyond_paper();
   card.number = 5;
   card.name = "symmetric";
@@ -44,6 +44,6 @@ ModelCard card() {
 
 }  // namespace
 
-const ModelCard symmetric = card();
+constinit const ModelCard model_symmetric = card();
 
 }  // namespace acstudy

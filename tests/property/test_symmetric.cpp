@@ -73,6 +73,10 @@ TEST_CASE("weights of the symmetric scheme are integrals over two cells", "[symm
       const auto scheme = SymmetricTested::placed<NoDivergence>(kernel, x, delta, constant_velocity(1.0));
       const std::vector<double> W = scheme.weights(20);
       const auto first = static_cast<std::size_t>(scheme.neighbors_left(20));
+      double sum = 0.0;
+      for (std::size_t k = 0; k < W.size(); ++k)
+        sum += W[k] * (k < first ? x[20 - first + k] - x[20] : x[21 - first + k] - x[20]);
+      CHECK(std::abs(sum - 2.0) < 1e-13);
       // What it sees of a neighbor, the neighbor sees of it.
       const std::vector<double> of_neighbor = scheme.weights(19);
       CHECK(std::abs(W[first - 1] * scheme.volumes()[20] +

@@ -109,7 +109,7 @@ template <IntegrableKernel K, class Divergence>
 void Symmetric<K, Divergence>::set_pairs(const Particles& particles) {
   const std::ptrdiff_t n = std::ssize(particles.x);
   const double delta = particles.delta;
-  // Two cells are within the horizon if of the particles next to the gap between them two are.
+  // Cells closer than the horizon can belong to particles one beyond it, and their bounds to one more.
   const std::ptrdiff_t reach = particles.windows.widest + 2;
   PeriodicArray x(n), bound(n);
   std::copy_n(particles.x.values().begin(), n, x.values().begin());

@@ -17,8 +17,8 @@ std::string Case::key() const {
       "}|"
       "integrator={}|N={}|delta={:.17g}|steps={}{}{}{}{}{}",
       text.period, text.T, text.c, text.b.value_or(""), text.solution(), text.flow.value_or(""),
-      scheme.model->own() ? fmt::format("{}#{:016x}", scheme.model->name, scheme.model->fingerprint())
-                          : std::to_string(scheme.model->number),
+      scheme.model->fingerprint != nullptr ? fmt::format("{}#{:016x}", scheme.model->name, scheme.model->fingerprint())
+                                           : std::to_string(scheme.model->number),
       scene->standing()            ? "none"
       : scheme.nonlocal_divergence ? "nonlocal"
                                    : "local",

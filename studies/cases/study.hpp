@@ -56,7 +56,7 @@ struct Series {
     } else if (const KernelParameter* const parameter = scheme.kernel.family()) {
       visit(Stored{parameter->name().data()}, scheme.kernel.parameter);  // the end of a literal
     }
-    if (scheme.model->own()) visit(Stored{"label"}, std::string(scheme.model->name));
+    if (scheme.model->beyond_paper) visit(Stored{"label"}, scheme.model->label());
     if (scheme.model->viscous) visit(Stored{"mu"}, first.mu);
     visit(Stored{"path"}, path);
     visit(Stored{.name = "delta", .in_hdf5 = "delta_text"}, delta_text);

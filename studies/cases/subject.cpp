@@ -23,8 +23,8 @@ std::vector<Coordinate> scheme_coordinates(const SchemeChoice& scheme, double mu
     return {unspoken({"scheme", scheme.program->label}), unspoken({"command", scheme.program->command_line()})};
   }
   std::vector<Coordinate> all;
-  if (scheme.model->own()) {
-    all.emplace_back("scheme", std::string(scheme.model->name));
+  if (scheme.model->beyond_paper) {
+    all.emplace_back("scheme", scheme.model->label());
   } else {
     all.emplace_back("model", static_cast<double>(scheme.model->number), fmt::format("model {}", scheme.model->number));
   }

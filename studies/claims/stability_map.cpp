@@ -105,9 +105,14 @@ double step_bound(const Integrator& integrator, double dt, double rows, double C
   return within ? phi(integrator, C, dt) : unbounded;
 }
 
+/// How many times forward Euler's steps theory allows; 0 where it bounds no step.
+double promised_radius(const Subject& subject, const Integrator& integrator) {
+  return subject.scheme.model->step_lemma.promised ? monotonicity_radius(integrator) : 0.0;
+}
+
 /// What step_bound says, in words.
-std::string step_claim(const Integrator& integrator) {
-  const double radius = monotonicity_radius(integrator);
+std::string step_claim(const Subject& subject, const Integrator& integrator) {
+  const double radius = promised_radius(subject, integrator);
   if (std::isinf(radius)) return "a step grows by no more than 1/(1 - C dt), at any CFL number with C dt < 1";
   if (radius == 0.0) return "theory bounds the growth of no step";
   return fmt::format("a step grows by no more than phi(C dt), up to {}the condition of the rows",
@@ -224,14 +229,15 @@ bool entries_are_promised(const Subject& subject, const Integrator& integrator, 
                           const Constants& constants, double dt) {
   const double radius = monotonicity_radius(integrator);
   const bool any_step = std::isinf(radius), within = frozen.rows > 0.0 && dt <= radius * frozen.rows * (1.0 + 1e-12);
-  if (subject.scheme.model->own()) return constants.C == 0.0 && (any_step || within);
-  if (subject.scheme.model->upwind) return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
+  const ModelCard& model = *subject.scheme.model;
+  if (model.beyond_paper) return model.step_lemma.promised && constants.C == 0.0 && (any_step || within);
+  if (model.upwind) return any_step ? constants.b_1 * dt < 1.0 : within && subject.scene->standing();
   return within && (any_step ? constants.C * dt < 1.0 : constants.C == 0.0);
 }
 
 std::string entries_claim(const Subject& subject, const Integrator& integrator) {
   const StepLemma& lemma = subject.scheme.model->step_lemma;
-  const double radius = monotonicity_radius(integrator);
+  const double radius = promised_radius(subject, integrator);
   if (std::isinf(radius)) return std::string(lemma.m_matrix);
   if (radius == 0.0) return "theory keeps the entries of no step positive";
   return fmt::format("no entry of a step is negative up to {}the condition of the rows, {}",
@@ -309,7 +315,7 @@ Point limit_at(const Subject& subject, const Integrator& integrator, const Const
     const double limit = last_stable(stable, highest);
     const double promised = frozen.rows > 0.0 ? std::min(monotonicity_radius(integrator) * frozen.rows, pole) : 0.0;
     const double least = std::min(promised / frozen.lemma, highest);
-    const bool any = monotonicity_radius(integrator) > 0.0;
+    const bool any = promised_radius(subject, integrator) > 0.0;
     const double lower = any ? least * (1.0 - 1e-6) : -unbounded, upper = exact ? least * (1.0 + 1e-6) : unbounded;
     const bool within = lower <= limit && limit <= upper,
                was = worst.lower <= worst.value && worst.value <= worst.upper;
@@ -388,7 +394,7 @@ const char* quantity_of(Measure measure) {
 Measurement stability_map(const Subject& subject, const Integrator& integrator, const StabilityGrid& grid,
                           Measure measure) {
   return bounded_if_at_all(
-      check_of(subject, integrator, "map", step_claim(integrator), quantity_of(measure), "CFL number"),
+      check_of(subject, integrator, "map", step_claim(subject, integrator), quantity_of(measure), "CFL number"),
       [=, &integrator](Finding& finding) {
         const Constants constants(subject);
         for (const double ratio : grid.ratios) {
@@ -403,8 +409,8 @@ Measurement sharp_limit(const Subject& subject, const Integrator& integrator, co
   const bool of_norm = measure == Measure::norm;
   const std::string claim(limit_is_exact(subject, integrator, measure, constants.C)
                               ? subject.scheme.model->step_lemma.sharp
-                          : monotonicity_radius(integrator) == 0.0 ? "theory promises no step"
-                                                                   : "stable as far as the rows need, at least");
+                          : promised_radius(subject, integrator) == 0.0 ? "theory promises no step"
+                                                                        : "stable as far as the rows need, at least");
   return bounded_if_at_all(
       check_of(subject, integrator, of_norm ? "sharp in the max norm" : "sharp in the spectral radius", claim,
                of_norm ? "largest CFL number, max norm" : "largest CFL number, spectral radius", "delta/h"),
@@ -418,7 +424,7 @@ Measurement sharp_limit(const Subject& subject, const Integrator& integrator, co
 Measurement growth_curve(const Subject& subject, const Integrator& integrator, std::int64_t N, double ratio,
                          double cfl) {
   Check check =
-      check_of(subject, integrator, "growth curve", step_claim(integrator), "max norm of all steps to t", "t");
+      check_of(subject, integrator, "growth curve", step_claim(subject, integrator), "max norm of all steps to t", "t");
   check.coordinates.insert(check.coordinates.begin() + 2, {at_ratio(ratio), at_cfl(cfl)});
   return bounded_if_at_all(
       check, [=, &integrator](Finding& finding) { measure_growth(finding, subject, integrator, N, ratio, cfl); });

@@ -54,10 +54,11 @@ std::string left_out(const Study& study) {
     if (model->left_out.empty() || !any([&](const Series& s) { return s.scheme.model == model; })) continue;
     line(fmt::format("{} in {}", model->left_out, model->name));
   }
-  if (any([](const Series& s) { return s.cases.back().delta < s.cases.back().h; })) {
+  if (any([](const Series& s) { return s.cases.back().delta < s.cases.back().h && !s.scheme.model->beyond_paper; })) {
     std::vector<std::string> nearest;
-    for (const ModelCard* model : model_cards())
-      nearest.push_back(fmt::format("{} in {}", model->sides(), model->name));
+    for (const ModelCard* model : model_cards()) {
+      if (!model->beyond_paper) nearest.push_back(fmt::format("{} in {}", model->sides(), model->name));
+    }
     line(fmt::format("neighbors beyond the nearest where the horizon is below the spacing: {}",
                      fmt::join(nearest, ", ")));
   }
@@ -212,12 +213,14 @@ std::string explain(const StudyForecast& forecast, std::span<const Finding> budg
                        "neighbors", "CFL");
     for (const Case& c : series.cases) {
       const double per_side = std::max(1.0, std::floor(c.delta / c.h * (1.0 + horizon_tie_tolerance)));
-      out += fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>#6.3g}{}{}\n", c.N, c.h, c.delta, c.dt,
-                         c.steps, series.scheme.model->sides() * static_cast<std::int64_t>(per_side), c.cfl(),
-                         c.cfl() > 1.0 && !c.integrator->implicit() && !c.step.adaptive()
-                             ? "  beyond the bound 1 of the stability lemma"
-                             : "",
-                         series.against_reference && &c == &series.cases.back() ? "  reference" : "");
+      out +=
+          fmt::format("  {:>9} {:>11.4g} {:>11.4g} {:>11.4g} {:>9} {:>10} {:>#6.3g}{}{}\n", c.N, c.h, c.delta, c.dt,
+                      c.steps, series.scheme.model->sides() * static_cast<std::int64_t>(per_side), c.cfl(),
+                      c.cfl() > 1.0 && !c.integrator->implicit() && !c.step.adaptive()
+                          ? series.scheme.model->step_lemma.promised ? "  beyond the bound 1 of the stability lemma"
+                                                                     : "  beyond 1, where nothing is known of its steps"
+                          : "",
+                      series.against_reference && &c == &series.cases.back() ? "  reference" : "");
     }
     const ModelCard& model = *series.scheme.model;
     if (!model.step_lemma.enough_for_every_kernel && !vanishes_at_origin(series.scheme.kernel)) {

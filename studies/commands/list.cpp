@@ -42,9 +42,18 @@ std::string list_text(const std::string& what, bool draw) {
   if (what.empty() || what == "schemes") {
     heading("schemes");
     for (const ModelCard* model : model_cards()) {
-      if (model->own()) {
-        out += fmt::format("{}model = \"{}\"  order {:g} in {} ({})\n", indent, model->name, model->order,
-                           model->order_in_h ? "h" : "max(h,delta)", model->equations.local);
+      if (model->beyond_paper) {
+        const std::string limiter = model->limiter.empty() ? "" : fmt::format(", limiter = \"{}\"", model->limiter);
+        const std::string order = fmt::format("order {:g} in {} ({})", model->order,
+                                              model->order_in_h ? "h" : "max(h,delta)", model->equations.local);
+        if (model->fingerprint != nullptr) {
+          out += fmt::format("{}model = \"{}\"  {}\n", indent, model->name, order);
+          continue;
+        }
+        out += fmt::format(
+            "{0}model = \"{1}\"{2}, divergence = \"local\"     {3}\n"
+            "{0}model = \"{1}\"{2}, divergence = \"nonlocal\"  {3}\n",
+            indent, model->name, limiter, order);
         continue;
       }
       const Theorems& equations = model->equations;

@@ -22,7 +22,10 @@ void read_consistency(const Table& root, Study& study) {
   }
 
   for (const Subject& subject : read_subjects(root, study.scene)) {
-    if (subject.scheme.model->own()) {
+    if (const std::string_view reason = subject.scheme.model->no_truncation; !reason.empty()) {
+      root.place(*root.find("scheme")).fail(fmt::format("{}; examine it in a study of kind convergence", reason));
+    }
+    if (subject.scheme.model->beyond_paper) {
       for (const PathChoice& path : paths) {
         if (!path.nonlocal_source) study.measurements.push_back(truncation_along(subject, path, {{"path", path.name}}));
       }

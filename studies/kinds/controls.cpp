@@ -33,7 +33,9 @@ struct Row {
 struct Column {
   std::string name;
   std::function<Measurement(const SchemeEntry&)> measurement;
-  bool of_theory = false;  ///< what it measures is said of the models of the paper alone
+  bool of_theory = false;      ///< what it measures is said of the models of the paper alone
+  bool of_steps = false;       ///< or of those whose steps theory bounds
+  bool of_truncation = false;  ///< or of those whose order is that of what they leave of the equation
 };
 
 /// Errors of runs along a path, of the series of this number.
@@ -187,8 +189,9 @@ std::vector<Column> columns_without_runs(const Table& root, const std::shared_pt
       const double count = static_cast<double>(N), delta = path.delta({scene->period() / count, count});
       check_horizon(*scene, N, delta, table.place(*table.find("delta")));
     }
-    columns.push_back({"consistency, " + path.name,
-                       [=](const SchemeEntry& entry) { return truncation_along(on_scene(entry), path); }});
+    columns.push_back({.name = "consistency, " + path.name,
+                       .measurement = [=](const SchemeEntry& entry) { return truncation_along(on_scene(entry), path); },
+                       .of_truncation = true});
   }
   columns.push_back(
       {"nearest neighbors",
@@ -196,13 +199,19 @@ std::vector<Column> columns_without_runs(const Table& root, const std::shared_pt
   columns.push_back({"first moment",
                      [=](const SchemeEntry& entry) { return first_moment_is_one(on_scene(entry), resolutions); },
                      true});
-  columns.push_back({"step norm", [=](const SchemeEntry& entry) {
-                       return step_is_bounded(on_scene(entry), resolutions, StepCondition::corrected);
-                     }});
-  columns.push_back({"maximum principle", [=](const SchemeEntry& entry) {
-                       const Subject subject{entry.scheme, 1.0, constant, Arrangement::jittered};
-                       return step_is_bounded(subject, resolutions, StepCondition::corrected);
-                     }});
+  columns.push_back({.name = "step norm",
+                     .measurement =
+                         [=](const SchemeEntry& entry) {
+                           return step_is_bounded(on_scene(entry), resolutions, StepCondition::corrected);
+                         },
+                     .of_steps = true});
+  columns.push_back({.name = "maximum principle",
+                     .measurement =
+                         [=](const SchemeEntry& entry) {
+                           const Subject subject{entry.scheme, 1.0, constant, Arrangement::jittered};
+                           return step_is_bounded(subject, resolutions, StepCondition::corrected);
+                         },
+                     .of_steps = true});
   columns.push_back({"trajectories", [=](const SchemeEntry& entry) { return trajectories(entry, scene); }});
   return columns;
 }
@@ -242,7 +251,9 @@ void read_controls(const Table& root, Study& study) {
     std::vector<Cell> cells;
     const ModelCard& model = *row.entry.scheme.model;
     for (std::size_t p = 0; p < columns.size(); ++p) {
-      if (model.own() && columns[p].of_theory) continue;
+      if (model.beyond_paper && columns[p].of_theory) continue;
+      if (!model.step_lemma.promised && columns[p].of_steps) continue;
+      if (!model.no_truncation.empty() && columns[p].of_truncation) continue;
       if (p < paths.size()) {
         const Place at_delta = path_tables[p].place(*path_tables[p].find("delta"));
         study.series.push_back(make_series(study, time, row.entry, paths[p], at_delta));

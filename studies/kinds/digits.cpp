@@ -35,6 +35,10 @@ void read_digits(const Table& root, Study& study) {
   std::set<std::string> known;
   for (const Table& table : root.array_of_tables("weights")) {
     const ModelCard* const model = &read_model(table);
+    if (model->beyond_paper) {
+      table.place(*table.find("model"))
+          .fail(fmt::format("only the weights of Models I and II are examined, not those of {}", model->name));
+    }
     const WeightsChoice choice{model, read_kernel(table, *model)};
     if (!known.insert(fmt::format("{} {}", model->number, choice.kernel.label())).second) {
       table.place().fail("the same weights a second time; leave one of them out");

@@ -54,6 +54,20 @@ Curves read_curves(const Table& table, const Scene& scene, std::int64_t N) {
   return curves;
 }
 
+/// @throws InputError for a scheme that has no matrix to take norms and eigenvalues of
+void require_matrix(const Subject& subject, const Place& at) {
+  if (!subject.scheme.model->linear) {
+    at.fail(fmt::format("{} is not linear, so that its steps have no matrix to study; leave limiter out",
+                        subject.scheme.model->label()));
+  }
+  if (subject.scheme.model->carries_volumes && subject.scheme.nonlocal_divergence && !subject.scene->standing()) {
+    at.fail(fmt::format(
+        "with the nonlocal divergence the unknown of {} is V u, whose steps are not those of u; write divergence = "
+        "\"local\"",
+        subject.scheme.model->label()));
+  }
+}
+
 void require_viscosity(const Subject& subject, const Place& at) {
   if (subject.scheme.model->viscous && subject.mu == 0.0) {
     at.fail("a scheme with mu = 0 has no CFL number; give it a viscosity bound");
@@ -87,7 +101,10 @@ void read_stability_map(const Table& root, Study& study) {
   if (scene.T() == 0.0) {
     root.place(*root.find("scene")).fail("T = 0; growth over T needs time: write T = 1");
   }
-  for (const Subject& subject : subjects) require_viscosity(subject, root.place(*root.find("scheme")));
+  for (const Subject& subject : subjects) {
+    require_viscosity(subject, root.place(*root.find("scheme")));
+    require_matrix(subject, root.place(*root.find("scheme")));
+  }
   const std::vector<Subject> controls = read_unstable_controls(root, study.scene);
 
   std::vector<Measurement>& all = study.measurements;

@@ -7,47 +7,11 @@
 #include "solver/line/controls/model2.hpp"
 #include "solver/line/controls/sph.hpp"
 #include "studies/models/scheme_on.hpp"
+#include "studies/models/some_kernel.hpp"
 
 namespace acstudy {
 
 namespace {
-
-/// Any kernel, found out at each call: one type, where run times matter less than how long it takes to build.
-class SomeKernel {
- public:
-  explicit SomeKernel(AnyKernel kernel) : kernel_(std::move(kernel)) {}
-  double eta(double z) const {
-    return std::visit([z](const auto& k) { return k.eta(z); }, kernel_);
-  }
-  double first_moment(const auto& where) const {
-    return std::visit([&](const auto& k) { return k.first_moment(where); }, kernel_);
-  }
-  /// @throws std::logic_error if it is not integrable
-  double mass(const auto& where) const {
-    return std::visit(
-        [&]<class K>(const K& k) -> double {
-          if constexpr (IntegrableKernel<K>) return k.mass(where);
-          throw std::logic_error("the mass of a kernel that is not integrable");
-        },
-        kernel_);
-  }
-  double origin_exponent() const {
-    return std::visit([](const auto& k) { return k.origin_exponent(); }, kernel_);
-  }
-  double regular_part(double z) const {
-    return std::visit([z](const auto& k) { return k.regular_part(z); }, kernel_);
-  }
-  std::span<const double> breaks() const {
-    return std::visit([](const auto& k) { return k.breaks(); }, kernel_);
-  }
-
- private:
-  AnyKernel kernel_;
-};
-
-SomeKernel integrable_one(const KernelChoice& choice) {
-  return with_integrable_kernel(choice, [](const auto& kernel) { return SomeKernel(AnyKernel(kernel)); });
-}
 
 template <class Mistake>
 std::unique_ptr<LineScheme> model1(const SchemeChoice& choice, const Scene& scene, double) {

@@ -12,7 +12,8 @@ namespace {
 
 /// Also where models are added before main begins, it is there.
 std::vector<const ModelCard*>& cards() {
-  static std::vector<const ModelCard*> all = {&model_one, &model_two};
+  static std::vector<const ModelCard*> all = {&model_one, &model_two, &model_slopes, &model_clipped_slopes,
+                                              &model_symmetric};
   return all;
 }
 
@@ -30,29 +31,19 @@ const ModelCard* find_model(std::int64_t number) {
   return find([&](const ModelCard* card) { return card->number == number; });
 }
 
-const ModelCard* find_own_model(std::string_view name) {
-  return find([&](const ModelCard* card) { return card->own() && card->name == name; });
+const ModelCard* find_named_model(std::string_view name, std::string_view limiter) {
+  return find(
+      [&](const ModelCard* card) { return card->beyond_paper && card->name == name && card->limiter == limiter; });
 }
 
-ModelCard own_card() {
-  ModelCard card{};
-  card.pair_cost = 1.0;
-  card.row_terms = 1.0;
-  card.vector_form = VectorForm::none;
-  card.step_lemma = {.name = "its bound on steps",
-                     .row_by_row = "its bound on steps, row by row",
-                     .where_positive = "where c - b is constant",
-                     .m_matrix = "no entry of a step is negative at any step",
-                     .limit = "c - b",
-                     .enough_for_every_kernel = true};
-  card.to_nonlocal = card.to_pde = "consistency";
-  return card;
+const ModelCard* find_labeled_model(std::string_view label) {
+  return find([&](const ModelCard* card) { return card->beyond_paper && card->label() == label; });
 }
 
 void add_model(ModelCard& card) {
   constexpr int first_number = 100;
   if (card.name.empty()) throw std::logic_error("a scheme has no name; write .name = \"my-scheme\"");
-  if (find_own_model(card.name) != nullptr) {
+  if (find_named_model(card.name) != nullptr) {
     throw std::logic_error("two schemes have the name " + std::string(card.name) + "; give one of them another");
   }
   card.number = first_number + static_cast<int>(cards().size());

@@ -125,27 +125,58 @@ struct ModelCard {
   NearestNeighbors nearest;
   Mistakes mistakes;
 
+  /// Studies name it, and theory says nothing of it but what is here; false of the paper's, which have numbers.
+  bool beyond_paper = false;
+  std::string_view limiter = {};  ///< what studies write beside the name: limiter = "clip"
+  /// With the nonlocal divergence the unknown on moving particles is V_j u_j, not u_j.
+  bool carries_volumes = false;
+  /// Why what it leaves of the equation says nothing of its order; empty if that is of its order too.
+  std::string_view no_truncation = {};
+  bool linear = true;                       ///< in u; else it has no matrix, and no implicit step
+  std::string_view no_nonlocal_model = {};  ///< why acstudy has no source of one that it goes to, where it has none
+
   double order = 1.0;       ///< in max(h, delta), of errors against the PDE
   bool order_in_h = false;  ///< it is in h, whatever the horizon is
   /// Of a scheme that somebody has added: a checksum of what it computes. Null of acstudy's own.
   std::uint64_t (*fingerprint)() = nullptr;
 
-  bool own() const { return fingerprint != nullptr; }
+  /// "Model I", "slopes, limiter clip"
+  std::string label() const { return std::string(name) + (limiter.empty() ? "" : ", limiter " + std::string(limiter)); }
   bool needs_integrable_kernel() const { return cell_weights == CellWeights::masses; }
   int sides() const { return upwind ? 1 : 2; }
 };
 
 extern const ModelCard model_one, model_two;
+extern const ModelCard model_slopes, model_clipped_slopes, model_symmetric;
 
 /// All of them, by number: those of acstudy, then those that were added.
 std::span<const ModelCard* const> model_cards();
 /// Null if there is none.
 const ModelCard* find_model(std::int64_t number);
-/// One that was added; null if there is none.
-const ModelCard* find_own_model(std::string_view name);
+/// One that is not of the paper, as studies name it; null if there is none.
+const ModelCard* find_named_model(std::string_view name, std::string_view limiter = {});
+/// The same by its label, as results have it.
+const ModelCard* find_labeled_model(std::string_view label);
 
-/// A card on which nothing is said that only theory could know.
-ModelCard own_card();
+/// Where no theorem is known.
+inline constexpr Theorems measured_alone = {"expected, measured; not proven", "expected, measured; not proven",
+                                            "expected, measured; not proven"};
+/// A card of a model that is not of the paper, on which nothing is said that only theory could know.
+constexpr ModelCard card_beyond_paper() {
+  ModelCard card{};
+  card.beyond_paper = true;
+  card.pair_cost = 1.0;
+  card.row_terms = 1.0;
+  card.vector_form = VectorForm::none;
+  card.step_lemma = {.name = "its bound on steps",
+                     .row_by_row = "its bound on steps, row by row",
+                     .where_positive = "where c - b is constant",
+                     .m_matrix = "no entry of a step is negative at any step",
+                     .limit = "c - b",
+                     .enough_for_every_kernel = true};
+  card.to_nonlocal = card.to_pde = "consistency";
+  return card;
+}
 /// Adds a model and gives it its number; the card has to live as long as the program.
 /// @throws std::logic_error if it has no name, or that of another one
 void add_model(ModelCard& card);

@@ -38,7 +38,7 @@ std::vector<double> PlacedScheme::truncation_error(Source& source, double t) {
 
 PlacedScheme::Rows PlacedScheme::rows() {
   const auto n = static_cast<std::ptrdiff_t>(size());
-  const std::ptrdiff_t reach = std::min<std::ptrdiff_t>(particles_.windows.widest, n);
+  const std::ptrdiff_t reach = std::min<std::ptrdiff_t>(scheme_->reach(), n);
   const bool banded = 2 * reach + 1 < n;
   const std::ptrdiff_t width = banded ? 2 * reach + 1 : n, first = banded ? -reach : 0;
   Rows rows{first, static_cast<std::size_t>(width), std::vector<double>(static_cast<std::size_t>(n * width))};

@@ -30,8 +30,8 @@ class PlacedScheme {
   /// whose manufactured source is f.
   std::vector<double> truncation_error(Source& source, double t);
 
-  /// Row j of the matrix R of the rates, rate(u) = R u: entries at j - widest .. j + widest (modulo N), row after row,
-  /// shape [N * (2 widest + 1)]. Exact, by probing with unit vectors that do not overlap; with few particles, whose
+  /// Row j of the matrix R of the rates, rate(u) = R u: entries at j - reach .. j + reach (modulo N), row after row,
+  /// shape [N * (2 reach + 1)]. Exact, by probing with unit vectors that do not overlap; with few particles, whose
   /// windows wrap around, [N * N] from offset 0.
   struct Rows {
     std::ptrdiff_t first;  ///< offset of the first entry of a row

@@ -249,7 +249,7 @@ class OwnScheme {
   }
 
  private:
-  ModelCard card_ = own_card();
+  ModelCard card_ = card_beyond_paper();
 };
 
 }  // namespace acstudy

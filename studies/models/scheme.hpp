@@ -45,7 +45,12 @@ class LineScheme {
   /// du_j = rate_j(u).  @pre place() was called; wraps the ghosts of `u`
   virtual void rate(PeriodicArray& u, std::span<double> du) = 0;
   virtual Stencil stencil(std::ptrdiff_t j) const = 0;
-  /// Null for a control that has sums of its own.
+  /// V_j where the unknown, and what rate() takes and gives, is V_j u_j; empty where it is u_j.  @pre place() was
+  /// called
+  virtual std::span<const double> volumes() const { return {}; }
+  /// How far from a particle, in particles, those are that its rate depends on.  @pre place() was called
+  virtual std::ptrdiff_t reach() const = 0;
+  /// Null for a control that has sums of its own, and for a scheme that is not linear.
   virtual const SchemeRows* rows() const = 0;
   virtual WorkCounts work() const = 0;
 };

@@ -23,7 +23,9 @@ Stencil stencil_of(const Model& scheme, std::ptrdiff_t j, const Windows& windows
     for (std::ptrdiff_t k = 1; k <= std::ssize(weights); ++k) stencil.offset.push_back(-s * k);
   } else {
     stencil.renormalization = scheme.renormalization(j);
-    for (std::ptrdiff_t k = -windows.left[j]; k <= windows.right[j]; ++k) {
+    std::ptrdiff_t left = windows.left[j];
+    if constexpr (requires { scheme.neighbors_left(j); }) left = scheme.neighbors_left(j);
+    for (std::ptrdiff_t k = -left; k <= std::ssize(weights) - left; ++k) {
       if (k != 0) stencil.offset.push_back(k);
     }
   }
@@ -42,6 +44,16 @@ class SchemeOn final : public LineScheme {
   }
   void rate(PeriodicArray& u, std::span<double> du) override { model_.rate(u, du); }
   Stencil stencil(std::ptrdiff_t j) const override { return stencil_of(model_, j, *windows_); }
+  std::span<const double> volumes() const override {
+    if constexpr (requires { Model::carries_volumes; }) {
+      if (Model::carries_volumes) return model_.volumes();
+    }
+    return {};
+  }
+  std::ptrdiff_t reach() const override {
+    if constexpr (requires { model_.reach(); }) return model_.reach();
+    return windows_->widest;
+  }
   const SchemeRows* rows() const override {
     if constexpr (KnowsItsRows<Model>) return &rows_;
     return nullptr;
@@ -66,7 +78,7 @@ class SchemeOn final : public LineScheme {
 };
 
 /// A scheme on a scene, with the velocities that the choice's control leaves it.
-template <Scheme Model>
+template <RateSum Model>
 std::unique_ptr<LineScheme> on(Model model, const SchemeChoice& choice, const Scene& scene) {
   const auto forgotten = choice.control != nullptr ? choice.control->forgotten : controls::Forgotten::nothing;
   return std::make_unique<SchemeOn<Model>>(std::move(model), scene, forgotten);

@@ -45,7 +45,7 @@ constexpr auto with_kernel_keys(const Key (&keys)[n]) {
 }
 
 inline constexpr auto scheme_keys = with_kernel_keys({
-    {"model", "a model", "by its number, or the name of one that was added: see acstudy list schemes",
+    {"model", "a model", "one of the paper by its number, any other by its name: see acstudy list schemes",
      "needed without command"},
     {"divergence", "\"local\", \"nonlocal\"", "b' is exact, or made of the kernel", "needed where particles move"},
     {"kernel", "a kernel", "by name, or as a table: a name with its parameter, or a text of your own",
@@ -56,7 +56,8 @@ inline constexpr auto scheme_keys = with_kernel_keys({
     {"kernel.eta", "expression in s", "eta itself, normalized", "a name or a profile"},
     {"kernel.breaks", "list of numbers", "where the text is not smooth, or expressions such as \"1/3\"", "nowhere"},
     {"kernel.exponent", "number below 2", "eta(s) is s^-exponent times the text; in Model II below 1", "0"},
-    {"mu", "number, 0 or more", "viscosity bound of Model II", "max |c - b|"},
+    {"limiter", "\"clip\"", "of slopes, where data are not smooth; goes with model = \"slopes\"", "none"},
+    {"mu", "number, 0 or more", "viscosity bound of Model II and symmetric", "max |c - b|"},
     {"command", "list of texts", "a program and its arguments, in place of a model; convergence only",
      "a model is run"},
     {"label", "text", "its name; goes with command", "the command"},

@@ -99,15 +99,29 @@ const ModelCard& read_model(const Table& table) {
   const toml::node& node = table.need("model", "model = 1");
   const auto number = node.value_exact<std::int64_t>();
   const auto name = node.value_exact<std::string>();
-  const ModelCard* const model = number ? find_model(*number) : name ? find_own_model(*name) : nullptr;
-  if (model == nullptr || (number && model->own())) {
+  const ModelCard* const model = number ? find_model(*number) : name ? find_named_model(*name) : nullptr;
+  if (model == nullptr || (number && model->beyond_paper)) {
     std::vector<std::string> known;
     for (const ModelCard* card : model_cards()) {
-      known.push_back(card->own() ? in_quotes(card->name) : std::to_string(card->number));
+      if (!card->limiter.empty()) continue;
+      known.push_back(card->beyond_paper ? in_quotes(card->name) : std::to_string(card->number));
     }
     table.place(node).fail(fmt::format("model = {}; it must be {}", Table::described(node), fmt::join(known, " or ")));
   }
-  return *model;
+  const toml::node* const limiter = table.find("limiter");
+  if (limiter == nullptr) return *model;
+  std::vector<std::string> limiters;
+  for (const ModelCard* card : model_cards()) {
+    if (card->name == model->name && !card->limiter.empty()) limiters.push_back(in_quotes(card->limiter));
+  }
+  if (limiters.empty()) table.place(*limiter).fail(fmt::format("{} has no limiter; leave limiter out", model->name));
+  const auto text = limiter->value_exact<std::string>();
+  const ModelCard* const limited = text ? find_named_model(model->name, *text) : nullptr;
+  if (limited == nullptr || text->empty()) {
+    table.place(*limiter).fail(
+        fmt::format("limiter = {}; it must be {}", Table::described(*limiter), fmt::join(limiters, " or ")));
+  }
+  return *limited;
 }
 
 SchemeChoice read_scheme(const Table& table, const Scene& scene, Programs programs) {
@@ -296,8 +310,24 @@ Case make_case(const Study& study, const Stepping& time, const SchemeEntry& entr
   const Scene& scene = *study.scene;
   check_horizon(scene, N, delta, at);
   if (nonlocal_source && entry.scheme.program == nullptr && entry.scheme.model->continuum == nullptr) {
-    at.fail(
-        fmt::format("no nonlocal model is known that {} goes to; write source = \"local\"", entry.scheme.model->name));
+    const ModelCard& model = *entry.scheme.model;
+    at.fail(model.no_nonlocal_model.empty()
+                ? fmt::format("no nonlocal model is known that {} goes to; write source = \"local\"", model.name)
+                : fmt::format("{}; write source = \"local\"", model.no_nonlocal_model));
+  }
+  if (entry.scheme.program == nullptr && !entry.scheme.model->linear &&
+      (time.integrator->implicit() || time.rule.bound == StepRule::Bound::rows)) {
+    time.at_step.fail(fmt::format("{} is not linear, so that it has no matrix for {}; {}, or leave limiter out",
+                                  entry.scheme.model->label(),
+                                  time.integrator->implicit() ? "implicit steps" : "bound = \"rows\"",
+                                  time.integrator->implicit() ? "take an explicit integrator" : "leave bound out"));
+  }
+  if (entry.scheme.model->carries_volumes && entry.scheme.nonlocal_divergence && !scene.standing() &&
+      time.rule.adaptive()) {
+    time.at_step.fail(
+        fmt::format("with the nonlocal divergence the unknown of {} is V u, and a tolerance is one of u; write a step, "
+                    "or divergence = \"local\"",
+                    entry.scheme.model->label()));
   }
   Case c{.scene = study.scene,
          .scheme = entry.scheme,

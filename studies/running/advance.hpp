@@ -71,6 +71,19 @@ class LineSchemeInMotion {
     place(0.0);
   }
 
+  /// From u at time t to the unknown, which for some schemes is V u; and back.
+  void to_unknown(double t, std::span<double> u) {
+    if (scheme_.volumes().empty()) return;
+    move(t);
+    times_volumes(u);
+  }
+  void to_solution(double t, std::span<double> unknown) {
+    if (scheme_.volumes().empty()) return;
+    move(t);
+    const std::span<const double> V = scheme_.volumes();
+    for (std::size_t j = 0; j < V.size(); ++j) unknown[j] /= V[j];
+  }
+
   void rate(double t, PeriodicArray& u, std::span<double> du) {
     see(t);
     timed(result_.pairs_seconds, [&] { scheme_.rate(u, du); });
@@ -127,10 +140,16 @@ class LineSchemeInMotion {
     result_.flow_evaluations += std::ssize(particles_.x);
   }
 
+  void times_volumes(std::span<double> values) const {
+    const std::span<const double> V = scheme_.volumes();
+    for (std::size_t j = 0; j < V.size(); ++j) values[j] *= V[j];
+  }
+
   /// Particles, source and bound as a stage at time t sees them.
   void see(double t) {
     move(t);
     timed(result_.source_seconds, [&] { source_.evaluate(t, f_); });
+    times_volumes(f_);
     if (watched_) watch_.stage(lemma_bound_ * gap_.width, gap_.place);
   }
 
@@ -184,7 +203,11 @@ CaseResult advance(const Case& c, LineScheme& scheme, Source& source, const std:
     Stepper stepper(*c.integrator, u.size(), c.step.adaptive());
     step_to_end(
         c, [&](double at) { return system.bound(at); },
-        StepActions{[&](const TimeStep& step) { stepper(step, u, system); },
+        StepActions{[&](const TimeStep& step) {
+                      system.to_unknown(step.begin, u.values());
+                      stepper(step, u, system);
+                      system.to_solution(step.end, u.values());
+                    },
                     [&](double tolerance) { return stepper.error(tolerance, u.values()); },
                     [&] {
                       stepper.take_back(u.values());

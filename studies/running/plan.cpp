@@ -35,7 +35,7 @@ bool has_panels(const Case& c) {
 
 /// What the sums over several particles at a time are not made for.
 bool asks_for_readable(const Case& c) {
-  return c.readable || c.scheme.program != nullptr || c.scheme.control != nullptr;
+  return c.readable || c.scheme.program != nullptr || c.scheme.control != nullptr || !c.scheme.model->linear;
 }
 
 /// Velocities at midpoints, which symmetric sums on moving particles need, have to be short trigonometric series, or

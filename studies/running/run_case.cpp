@@ -22,7 +22,8 @@ template <class Motion>
 CaseResult run_once(const Case& c, const std::atomic<bool>& stop) {
   const auto scheme = make_scheme(c.scheme, *c.scene, c.mu);
   if (scheme->rows() == nullptr && (c.integrator->implicit() || c.step.bound == StepRule::Bound::rows)) {
-    throw std::domain_error("a control with sums of its own knows nothing of its rows: no implicit step, no bound");
+    throw std::domain_error(
+        "neither a limiter nor a control with sums of its own knows its rows: no implicit step, no bound");
   }
   const auto source =
       make_source(c.scheme, *c.scene, c.mu, c.nonlocal_source, c.delta, c.source_rule, c.source_refinement);

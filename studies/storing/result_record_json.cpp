@@ -105,10 +105,10 @@ FindingRecord finding_of(const std::string& study, const json& one) {
 
 /// Of a scheme that another program may have added: what results say of it is its name.
 const ModelCard& card_named(const std::string& name) {
-  if (const ModelCard* const here = find_own_model(name)) return *here;
+  if (const ModelCard* const here = find_labeled_model(name)) return *here;
   struct Named {
     std::string name;
-    ModelCard card = own_card();
+    ModelCard card = card_beyond_paper();
   };
   static std::map<std::string, std::unique_ptr<Named>> known;
   std::unique_ptr<Named>& one = known[name];

@@ -8,7 +8,7 @@ from tests.program import FIELDS, INLINE, MODEL_II, STUDY, UNSOLVED, USE, Progra
 
 class BadStudy(ProgramTest):
     def test_explain_says_the_same(self):
-        for change, place in ((("model = 1", "model = 3"), "9:9: model = 3; it must be 1 or 2"),
+        for change, place in ((("model = 1", "model = 3"), '9:9: model = 3; it must be 1 or 2 or "slopes" or "symmetric"'),
                               (('title = "A tiny study"\n', "grid = 3\n"),
                                '3:1: unknown key "grid" in [study]; known keys: name, title, kind')):
             self.write("bad.toml", edit(STUDY, change))
@@ -67,7 +67,7 @@ class BadFile(ProgramTest):
         self.write("good.toml", STUDY)
         self.write("bad.toml", edit(STUDY, ('"tiny"', '"other"'), ("model = 1", "model = 3")))
         self.assert_bad_input(self.acstudy("run", "good.toml", "bad.toml", "--out", "out"),
-                              "bad.toml:9:9: model = 3; it must be 1 or 2")
+                              'bad.toml:9:9: model = 3; it must be 1 or 2 or "slopes" or "symmetric"')
         self.assert_nothing_written()
 
     def test_two_studies_of_one_name(self):

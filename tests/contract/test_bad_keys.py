@@ -21,7 +21,7 @@ MISTAKES = {
                                'reference, u0, f'),
     "field beside a named scene": (bad((USE, USE + '\n@c = "1"')), 'unknown key "c" in [scene]; known keys: use, T'),
     "unknown key in [[scheme]]": (bad((KERNEL, KERNEL + "\n@alpha = 1")),
-                                  'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, mu, '
+                                  'unknown key "alpha" in [[scheme]]; known keys: model, divergence, kernel, limiter, mu, '
                                   'command, label, order, expect, timeout, inputs'),
     "unknown key of a kernel": (kernel('{ name = "power", alpha = 0.5, @beta = 1 }'),
                                 'unknown key "beta" in kernel; known keys: name, alpha, profile, eta, breaks, exponent; '
@@ -139,9 +139,9 @@ MISTAKES = {
     "unknown scene": (bad((USE, 'use = @"lee-du"')),
                       'unknown scene "lee-du"; known scenes: lee-du-2019, standing-variable-velocity, '
                       'constant-velocity, lagrangian; did you mean "lee-du-2019"?'),
-    "model 3": (bad(("model = 1", "model = @3")), "model = 3; it must be 1 or 2"),
-    "model is a string": (bad(("model = 1", 'model = @"1"')), 'model = "1"; it must be 1 or 2'),
-    "model is a real number": (bad(("model = 1", "model = @1.0")), "model = 1.0; it must be 1 or 2"),
+    "model 3": (bad(("model = 1", "model = @3")), 'model = 3; it must be 1 or 2 or "slopes" or "symmetric"'),
+    "model is a string": (bad(("model = 1", 'model = @"1"')), 'model = "1"; it must be 1 or 2 or "slopes" or "symmetric"'),
+    "model is a real number": (bad(("model = 1", "model = @1.0")), 'model = 1.0; it must be 1 or 2 or "slopes" or "symmetric"'),
     "unknown divergence": (bad(('divergence = "local"', 'divergence = @"exact"')),
                            'divergence = "exact"; it must be one of "local", "nonlocal"'),
     "divergence is true": (bad(('divergence = "local"', "divergence = @true")),

@@ -2,7 +2,7 @@
 
 import unittest
 
-from tests.bad_studies import DIGITS, EXTREMES, SOURCE, STEPS, SWEEP, Mistakes, bad
+from tests.bad_studies import DIGITS, EXTREMES, PATH_TABLE, SOURCE, STEPS, SWEEP, Mistakes, bad
 
 MISTAKES = {
     # Sweeps of other kinds of study
@@ -22,6 +22,27 @@ MISTAKES = {
     "path in a study without paths": (bad(("[sweep]", "[[@path]]\nname = 1\n\n[sweep]"), of=SWEEP),
                                       'unknown key "path" in the study; known keys: study, scene, scheme, sweep, '
                                       'printed'),
+
+    # Schemes beyond the paper
+    "slopes where theory is measured": (
+        bad(("model = 1", 'model = @"slopes"'), of=SWEEP),
+        'a study of kind stability measures what theory says of Models I and II; examine "slopes" in one of kind '
+        "convergence, consistency, stability-map, controls"),
+    "weights of slopes": (bad(("model = 1", 'model = @"slopes"'), of=DIGITS),
+                          "only the weights of Models I and II are examined, not those of slopes"),
+    "map of what is not linear": (
+        bad(("[[scheme]]\nmodel = 1", '@[[scheme]]\nmodel = "slopes"\nlimiter = "clip"'), of=STEPS),
+        "slopes, limiter clip is not linear, so that its steps have no matrix to study; leave limiter out"),
+    "map of V u": (
+        bad(('[[scheme]]\nmodel = 1\ndivergence = "local"\nkernel = "inverse"',
+             '@[[scheme]]\nmodel = "symmetric"\ndivergence = "nonlocal"\nkernel = "cubic-spline"'), of=STEPS),
+        "with the nonlocal divergence the unknown of symmetric is V u, whose steps are not those of u; write divergence = "
+        '"local"'),
+    "consistency of symmetric": (
+        bad(('"stability"', '"consistency"'), ('[[scheme]]\nmodel = 1', '@[[scheme]]\nmodel = "symmetric"'),
+            ('"inverse"', '"cubic-spline"'), of=SWEEP) + PATH_TABLE,
+        "what symmetric leaves of the equation on uneven particles is not of its order, which only its errors are; examine "
+        "it in a study of kind convergence"),
 
     # Stability maps
     "map of no integrator": (bad(("[stability-map]", "@[stability-map]"), ('integrators = ["forward-euler"]\n', ""),

@@ -66,6 +66,33 @@ MISTAKES = {
                                       "eta does not go with profile; leave one of them out"),
     "kernel with a density and an exponent": (kernel('{ profile = "1-s", exponent = @0.5 }'),
                                               "exponent does not go with profile; leave one of them out"),
+    "a limiter of Model I": (bad(("model = 1", 'model = 1\nlimiter = @"clip"')), "Model I has no limiter; leave limiter out"),
+    "an unknown limiter": (bad(("model = 1", 'model = "slopes"\nlimiter = @"minmod"')),
+                           'limiter = "minmod"; it must be "clip"'),
+    "no limiter as text": (bad(("model = 1", 'model = "slopes"\nlimiter = @""')), 'limiter = ""; it must be "clip"'),
+    "a limiter and implicit steps": (
+        bad(("model = 1", 'model = "slopes"\nlimiter = "clip"'), ('"forward-euler"', '"sdirk2"'), ('"h/4"', '@"h/4"')),
+        "slopes, limiter clip is not linear, so that it has no matrix for implicit steps; take an explicit integrator, or "
+        "leave limiter out"),
+    "a limiter and the bound of rows": (
+        bad(("model = 1", 'model = "slopes"\nlimiter = "clip"'), ('"h/4"', '@"cfl"\nbound = "rows"')),
+        'slopes, limiter clip is not linear, so that it has no matrix for bound = "rows"; leave bound out, or leave '
+        "limiter out"),
+    "mu of slopes": (bad(("model = 1", 'model = "slopes"\nmu = @1')), "slopes has no viscosity; leave mu out"),
+    "a nonlocal source for slopes": (
+        bad(("model = 1", 'model = "slopes"'), ('delta = "4*h"', 'delta = @"4*h"'), ('source = "local"', 'source = "nonlocal"')),
+        "slopes go to a nonlocal model with slopes that are averages over the horizon, whose source acstudy does not "
+        'integrate; write source = "local"'),
+    "a singular kernel of symmetric": (
+        bad(("model = 1", 'model = "symmetric"'), ('kernel = "inverse"', 'kernel = @"inverse"')),
+        'symmetric needs an integrable kernel, and the inverse kernel is not; write "cubic-spline" or '
+        '{ name = "power", alpha = 0.5 } with alpha < 1'),
+    "adaptive steps of V u": (
+        bad(("model = 1", 'model = "symmetric"'), ('divergence = "local"', 'divergence = "nonlocal"'),
+            ('kernel = "inverse"', 'kernel = "cubic-spline"'), ('"forward-euler"', '"ssprk3"'),
+            ('"h/4"', '@"adaptive"\ntolerance = 1e-4')),
+        "with the nonlocal divergence the unknown of symmetric is V u, and a tolerance is one of u; write a step, or "
+        'divergence = "local"'),
     "kernel with a name and a text": (kernel('{ eta = "1", name = @"hat" }'),
                                       "name does not go with eta; leave one of them out"),
     "kernel with breaks of nothing": (kernel('{ breaks = @[0.5] }'),

@@ -107,7 +107,7 @@ class Words(ProgramTest):
             names[what] = [re.split(r"  +", line)[0] for line in done.stdout.splitlines()]
             for line in done.stdout.splitlines():
                 self.assertIn("  " + line, self.acstudy("list").stdout)
-        self.assertEqual([len(names[what]) for what in ("schemes", "kernels")], [4, 11])
+        self.assertEqual([len(names[what]) for what in ("schemes", "kernels")], [10, 11])
         studies = [edit(STUDY, ("model = 1\ndivergence = \"local\"", scheme.replace(", ", "\n")),
                         ('"inverse"', '"cubic-spline"')) for scheme in names["schemes"]]
         studies += [edit(STUDY, ('"inverse"', name.replace("alpha = A", "alpha = 0.5"))) for name in names["kernels"]]

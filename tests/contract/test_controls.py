@@ -52,7 +52,7 @@ def control(text):
 STUDIES = {
     "a scheme that asks for a control": (
         edit(STUDY, ("model = 1\n", 'model = 1\n@control = "downwind"\n')),
-        'unknown key "control" in [[scheme]]; known keys: model, divergence, kernel, mu, '
+        'unknown key "control" in [[scheme]]; known keys: model, divergence, kernel, limiter, mu, '
         'command, label, order, expect, timeout, inputs'),
     "controls with implicit steps": (
         edit(TINY, ('[time]\nintegrator = "forward-euler"', '@[time]\nintegrator = "backward-euler"')),

@@ -11,6 +11,7 @@ import time
 import unittest
 
 import h5py
+import numpy as np
 
 from tests.program import ACSTUDY, LEVELS, MODEL_II, ROOT, STUDY, ProgramTest, edit, numbers, reseal
 
@@ -186,7 +187,7 @@ class Findings(Keeping):
         # Whether a finding is measured or taken again, only the file can tell.
         path = self.folder / "out" / "tiny.h5"
         with h5py.File(path, "a") as file:
-            file["findings/0000"].attrs["remark"] = "taken again"
+            file["findings/0000"].attrs["remark"] = np.bytes_("taken again")
         reseal(path)
         self.assert_counts(self.run_study(MAP), 0, 32)
         changed = self.stored()
@@ -196,7 +197,7 @@ class Findings(Keeping):
             with self.subTest(text=text, arguments=arguments):
                 self.run_study(MAP)
                 with h5py.File(path, "a") as file:
-                    file["findings/0000"].attrs["remark"] = "taken again"
+                    file["findings/0000"].attrs["remark"] = np.bytes_("taken again")
                 reseal(path)
                 self.run_study(text, *arguments)
                 self.assertEqual(self.stored()["findings/0000@remark"], first["findings/0000@remark"])

@@ -37,7 +37,7 @@ class LimitTest(ProgramTest):
                 (USE, f'use = "{long}"', f"6:7: unknown scene {shown}; known scenes: "),
                 ('"inverse"', f'"{long}"', f"11:10: unknown kernel {shown}; known kernels: "),
                 ('source = "local"', f'source = "{long}"', f"21:10: source = {shown}; it must be one of "),
-                ("model = 1", f'model = "{long}"', f"9:9: model = {shown}; it must be 1 or 2"),
+                ("model = 1", f'model = "{long}"', f'9:9: model = {shown}; it must be 1 or 2 or "slopes" or "symmetric"'),
                 ("source =", f"{long} =", f"21:1: unknown key {shown} in [[path]]; known keys: "),
                 ('"4*h"', f'"{long}"', f"19:10: delta = {shown}: unknown name {shown}; it may use "),
                 ('"4*h"', f'"4*h*{"(" * 5000}"', '19:')):

@@ -9,16 +9,21 @@ namespace acstudy {
 
 TEST_CASE("every card is complete, and its number and name are its own", "[cards]") {
   std::set<int> numbers;
-  std::set<std::string_view> names;
+  std::set<std::string> names;
   for (const ModelCard* card : model_cards()) {
     INFO(card->name);
     CHECK(numbers.insert(card->number).second);
-    CHECK(names.insert(card->name).second);
+    CHECK(names.insert(card->label()).second);
     CHECK(find_model(card->number) == card);
-    CHECK(card->continuum != nullptr);
     CHECK(card->make != nullptr);
-    CHECK(card->printed_rate != nullptr);
     CHECK(card->step_lemma.speed != nullptr);
+    if (card->beyond_paper) {
+      CHECK(find_named_model(card->name, card->limiter) == card);
+      CHECK(find_labeled_model(card->label()) == card);
+      continue;
+    }
+    CHECK(card->continuum != nullptr);
+    CHECK(card->printed_rate != nullptr);
     CHECK(card->nearest.row != nullptr);
     CHECK(card->pair_cost > 0.0);
     CHECK(card->row_terms > 0.0);
@@ -32,6 +37,8 @@ TEST_CASE("every card is complete, and its number and name are its own", "[cards
     }
   }
   CHECK(find_model(0) == nullptr);
+  CHECK(find_named_model("Model I") == nullptr);
+  CHECK(find_named_model("slopes", "none") == nullptr);
 }
 
 TEST_CASE("the mistakes that a card names are controls of its model", "[cards]") {

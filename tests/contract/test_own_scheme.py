@@ -104,7 +104,7 @@ class OwnScheme(unittest.TestCase):
         done = subprocess.run([ACSTUDY, "explain", EXAMPLE / "convergence.toml"], text=True, capture_output=True,
                               check=False)
         self.assertEqual(done.returncode, 2)
-        self.assertIn('model = "renormalized-upwind"; it must be 1 or 2', done.stderr)
+        self.assertIn('model = "renormalized-upwind"; it must be 1 or 2 or "slopes" or "symmetric"', done.stderr)
 
     def test_a_report_has_it(self):
         self.results(self.right, "convergence", "controls")

@@ -37,6 +37,7 @@ class Mistaken : public LineScheme {
     for (std::size_t j = 0; j < du.size(); ++j) du[j] *= 1.5;
   }
   Stencil stencil(std::ptrdiff_t j) const override { return right_->stencil(j); }
+  std::ptrdiff_t reach() const override { return right_->reach(); }
   const SchemeRows* rows() const override { return nullptr; }
   WorkCounts work() const override { return right_->work(); }
 

@@ -69,7 +69,7 @@ class TableLanes {
       for (int i = 0; i < number; ++i) t[i] = z[i] - origin;
     }
     for (int i = 0; i < number; ++i) value[i] = highest;
-    if (number == 2 && k > 4) {
+    if (number < looked_ahead && k > 4) {
       // Few of them wait for each product: Horner's rule in t^2, for an even number of terms.
       for (int i = 0; i < number; ++i) value[i] = value[i] * t[i] + c[k - 1];
       while ((k -= 2) > 0) {

@@ -75,7 +75,7 @@ class Ensemble {
       needs.midpoints |= form == VectorForm::symmetric && moving;
       needs.phases |= m.source->is_series();
       // The side of a source is that of c_hat.
-      needs.c_hat |= c->scheme.model->continuum->sided && m.source->is_series() && c->nonlocal_source;
+      needs.c_hat |= c->nonlocal_source && m.source->is_series() && c->scheme.model->continuum->sided;
       needs.rows = c->integrator->implicit();
       needs.delta = std::max(needs.delta, c->delta);
     }

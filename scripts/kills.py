@@ -24,6 +24,8 @@ from tests.program import ACSTUDY, STUDY, edit, numbers
 
 # Cases of some hundredths of a second each.
 RUNS = edit(STUDY, ("4*h", "0.5"), ("[16, 32, 64]", str(list(range(600, 680)))), ('source = "local"', 'source = "nonlocal"'))
+# Enough of them to take longer than a kill waits on any machine.
+LONG = edit(RUNS, ('"tiny"', '"long"'), (str(list(range(600, 680))), str(list(range(600, 1800)))))
 FINDINGS = STUDY[:STUDY.index("[time]")].replace('"tiny"', '"finds"').replace(
     'title = "A tiny study"', 'kind = "identities"') + "[sweep]\nN = [100, 200]\nratios = [0.5, 2, 4, 10]\n"
 BENCH = edit(STUDY, ("[16, 32, 64]", "[400, 600]"))
@@ -32,7 +34,7 @@ BENCH = edit(STUDY, ("[16, 32, 64]", "[400, 600]"))
 class Kills:
     def __init__(self, program, seed):
         self.program, self.chance = Path(program).resolve(), random.Random(seed)
-        self.kills, self.wrong = 0, []
+        self.kills, self.tries, self.wrong = 0, 0, []
 
     def start(self, folder, arguments):
         return subprocess.Popen([self.program, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -40,6 +42,7 @@ class Kills:
 
     def killed(self, folder, arguments, longest):
         """Starts a command and kills it within so many seconds; false if it ends before."""
+        self.tries += 1
         with self.start(folder, arguments) as process:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.communicate(timeout=self.chance.uniform(0.0, longest))
@@ -72,8 +75,8 @@ def of_runs(kills, folder, count):
     begun = time.monotonic()
     kills.finish(folder, [*run, "--out", "timed", "--fresh"])
     takes = time.monotonic() - begun
-    done = 0
-    while done < count:
+    done, last_try = 0, kills.tries + 10 * count + 20
+    while done < count and kills.tries < last_try:
         shutil.rmtree(folder / "out", ignore_errors=True)
         stored = 0
         for _ in range(min(count - done, 12)):
@@ -84,31 +87,27 @@ def of_runs(kills, folder, count):
         stored = int(found[2]) if found else stored
         for name in ("tiny", "finds"):
             kills.compare(folder / "out" / f"{name}.h5", folder / "whole" / f"{name}.h5", "run")
-    return done
 
 
 def lost(kills, folder, count):
-    """How much a kill costs: what was stored a second and a half before is there after it."""
-    run = ["run", "tiny.toml", "--jobs", "2", "--quiet", "--out", "lost"]
-    done = 0
-    while done < count:
+    """How much a kill costs: of some seconds, what ran first is there after it."""
+    (folder / "long.toml").write_text(LONG, encoding="utf-8")
+    for _ in range(count):
         shutil.rmtree(folder / "lost", ignore_errors=True)
-        with kills.start(folder, run) as process:
-            time.sleep(kills.chance.uniform(1.5, 2.5))
+        with kills.start(folder, ["run", "long.toml", "--jobs", "2", "--quiet", "--out", "lost"]) as process:
+            time.sleep(kills.chance.uniform(4.0, 5.0))
             ended = process.poll() is not None
             process.send_signal(signal.SIGKILL)
             process.communicate()
-        kills.kills += not ended
-        done += 1
-        journal = folder / "lost" / "tiny.journal"
-        kills.expect(ended or journal.exists(), "run: nothing was kept of the first second")
-    return done
+        kills.expect(not ended, "run: it ended before it was killed")
+        kills.kills += 1
+        kills.expect((folder / "lost" / "long.journal").exists(), "run: nothing was kept of the first seconds")
 
 
 def of_shares(kills, folder, count):
     """Two shares and their merge."""
-    done = 0
-    while done < count:
+    done, last_try = 0, kills.tries + 10 * count + 20
+    while done < count and kills.tries < last_try:
         shutil.rmtree(folder / "shares", ignore_errors=True)
         shutil.rmtree(folder / "merged", ignore_errors=True)
         for shard in ("1/2", "2/2"):
@@ -122,21 +121,19 @@ def of_shares(kills, folder, count):
         kills.finish(folder, merge)
         for name in ("tiny", "finds"):
             kills.compare(folder / merge[-1] / f"{name}.h5", folder / "whole" / f"{name}.h5", "merge")
-    return done
 
 
 def of_benches(kills, folder, count):
     """A bench: its errors and work are those of another, and its samples are all there."""
     (folder / "bench.toml").write_text(BENCH, encoding="utf-8")
     bench = ["bench", "bench.toml", "--runs", "400", "--least-seconds", "0", "--quiet"]
-    done = 0
-    while done < count:
+    done, last_try = 0, kills.tries + 10 * count + 20
+    while done < count and kills.tries < last_try:
         shutil.rmtree(folder / "bench", ignore_errors=True)
         for _ in range(min(count - done, 12)):
             done += kills.killed(folder, [*bench, "--out", "bench"], 1.0)
         kills.finish(folder, [*bench, "--out", "bench"])
         kills.expect((folder / "bench" / "bench.json").exists(), "bench: no result")
-    return done
 
 
 def main():
@@ -149,9 +146,9 @@ def main():
     with tempfile.TemporaryDirectory(prefix="acstudy-kills-") as name:
         folder = Path(name)
         for what, part in ((of_runs, 0.6), (lost, 0.04), (of_shares, 0.26), (of_benches, 0.1)):
-            before = kills.kills
-            while kills.kills - before < max(1, round(part * options.kills)):
-                what(kills, folder, max(1, round(part * options.kills) - (kills.kills - before)))
+            before, wanted = kills.kills, max(1, round(part * options.kills))
+            what(kills, folder, wanted)
+            kills.expect(kills.kills - before >= wanted, f"{what.__name__}: only {kills.kills - before} kills in time")
             print(f"{what.__doc__.split(':')[0].rstrip('.').lower()}: {kills.kills - before} kills survived", flush=True)
     for what in kills.wrong[:20]:
         print(what)

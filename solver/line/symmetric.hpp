@@ -49,7 +49,7 @@ class Symmetric {
   template <AdvectionVelocity V>
   void place(const Particles& particles, const V& velocity);
 
-  /// Rates of the unknown: V_j u_j where carries_volumes, else u_j.  @pre place() was called;
+  /// Rates of the unknown: V_j u_j where carries_volumes, else u_j.  @pre place() was called
   void rate(PeriodicArray& u, std::span<double> du);
 
   /// The matrix of the rates.  @pre place() was called

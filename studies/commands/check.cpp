@@ -42,28 +42,25 @@ std::vector<Row> check_file(const std::string& file) {
       row.reason = fmt::format("{} of {} cases; the run was interrupted", cases->run, cases->planned);
     }
   }
+  const auto add = [&](const char* name, const char* verdict, const char* expected, const std::string& reason) {
+    rows.push_back({.file = file,
+                    .study = all.study,
+                    .name = name,
+                    .observed = "-",
+                    .verdict = verdict,
+                    .expected = expected,
+                    .reason = reason,
+                    .passes = false});
+  };
   if (all.findings.size() != all.findings_planned) {
     const std::string reason =
         fmt::format("{} of {} findings; the run was interrupted", all.findings.size(), all.findings_planned);
-    rows.push_back({.file = file,
-                    .study = all.study,
-                    .name = "all findings",
-                    .observed = "-",
-                    .verdict = "inconclusive",
-                    .expected = "a whole run",
-                    .reason = reason,
-                    .passes = false});
+    add("all findings", "inconclusive", "a whole run", reason);
   }
   // Where something departs anyway, that is what there is to look at.
   if (all.damaged && departing_in(rows) == 0) {
-    rows.push_back({.file = file,
-                    .study = all.study,
-                    .name = "the file",
-                    .observed = "-",
-                    .verdict = "damaged",
-                    .expected = "a file as it was written",
-                    .reason = "its checksum is not that of its values: it was damaged or edited; run the study again",
-                    .passes = false});
+    add("the file", "damaged", "a file as it was written",
+        "its checksum is not that of its values: it was damaged or edited; run the study again");
   }
   return rows;
 }

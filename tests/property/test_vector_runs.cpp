@@ -64,7 +64,7 @@ TEST_CASE("A run in the vector form ends where the readable one does, whatever t
   }
 }
 
-TEST_CASE("Kernels from tables look up neighbors beyond a window, however wide it is", "[vector][runs]") {
+TEST_CASE("Runs with kernels from tables end as in the readable form, however wide windows are", "[vector][runs]") {
   const auto scene = named_scene("lee-du-2019");
   constexpr std::int64_t N = 101;  // the last vector has lanes without a particle
   const double h = scene->period() / N;

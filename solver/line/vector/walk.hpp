@@ -33,7 +33,8 @@ class Distances {
  public:
   static constexpr int sign = s;
 
-  /// @param x        at the first of the particles, readable as far as their windows reach and one beyond
+  /// @param x        at the first of the particles, readable as far as their windows reach, one beyond, and as far as
+  /// is looked ahead
   /// @param counted  lanes whose neighbors are counted, a bit each
   ACSTUDY_ALWAYS_INLINE inline Distances(const double* x, const Viewpoint& from, unsigned counted)
       : x_(x), from_(from), counted_(counted), neighbor_{1, load(x - s), {}} {

@@ -6,10 +6,8 @@
 #include <memory>
 
 #include "studies/commands/command.hpp"
-#include "studies/commands/exit.hpp"
 #include "studies/commands/output.hpp"
 #include "studies/commands/run/tell.hpp"
-#include "studies/commands/say.hpp"
 #include "studies/commands/stop.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/reading/input_error.hpp"
@@ -68,10 +66,7 @@ int merge(const std::vector<std::string>& names, RunOptions options, bool verbos
   RunResult result;
   timed(seconds, [&] { result = run_studies(studies, options, stop_on_signals()); });
   const int status = tell(result, seconds, options, verbose);
-  if (!result.interrupted) return status;
-  say("interrupted; the same command merges anew");
-  if (result.left_running) leave(interrupted);
-  return interrupted;
+  return ended(result, status, "the same command merges anew");
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "studies/commands/output.hpp"
 #include "studies/commands/processors.hpp"
 #include "studies/commands/run/tell.hpp"
-#include "studies/commands/say.hpp"
 #include "studies/commands/stop.hpp"
 #include "studies/kinds/study_file.hpp"
 #include "studies/reading/toml_table.hpp"
@@ -63,10 +62,7 @@ int run(const std::vector<std::string>& files, const RunOptions& options, bool v
   RunResult result;
   timed(seconds, [&] { result = run_studies(studies, options, stop_on_signals()); });
   const int status = options.shard.whole() ? tell(result, seconds, options, verbose) : tell_share(result, options);
-  if (!result.interrupted) return status;
-  say("interrupted; finished cases are stored, and the same command goes on from them");
-  if (result.left_running) leave(interrupted);
-  return interrupted;
+  return ended(result, status, "finished cases are stored, and the same command goes on from them");
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "studies/commands/exit.hpp"
 #include "studies/commands/run/summary.hpp"
 #include "studies/commands/say.hpp"
+#include "studies/commands/stop.hpp"
 #include "studies/commands/terminal.hpp"
 
 namespace acstudy {
@@ -21,6 +23,13 @@ int tell(const RunResult& result, double seconds, const RunOptions& options, boo
   fmt::print("{}{}", verbose ? table_text(summary.rows, table_width()) + adaptive_steps_text(result.studies) : "",
              summary_text(summary, width, most_lines - 2 * notes.size()));
   return summary.status;
+}
+
+int ended(const RunResult& result, int status, const std::string& how_to_go_on) {
+  if (!result.interrupted) return status;
+  say("interrupted; " + how_to_go_on);
+  if (result.left_running) leave(interrupted);
+  return interrupted;
 }
 
 }  // namespace acstudy
